@@ -11,7 +11,7 @@ import scipy.sparse
 import signorini as sg
 
 
-def tube(**scene: object) -> sg.Scene:
+def tube(restitution: float = 0.5, **scene: object) -> sg.Scene:
     """A steel tube of three spans in two loose supports."""
     options = {"duration": 0.05} | scene
     return sg.beam(
@@ -22,7 +22,8 @@ def tube(**scene: object) -> sg.Scene:
         inner_diameter=15.75e-3,
         added_mass=0.565,
         elements=30,
-        walls=sg.support("first", 2e-4, at=1.0, restitution=0.5) + sg.support("second", 2e-4, at=2.0, restitution=0.5),
+        walls=sg.support("first", 2e-4, at=1.0, restitution=restitution)
+        + sg.support("second", 2e-4, at=2.0, restitution=restitution),
         loads=[sg.Load.harmonic(10.0, 25.0, at=0.5)],
         probes={"mid": 1.5},
         **options,  # type: ignore[arg-type]
@@ -37,7 +38,7 @@ def scenes() -> list[sg.Scene]:
         sg.bar(length=1.0, area=1e-4, youngs_modulus=2e11, density=7850.0, elements=20, left="fixed", damping=0.01),
         tube(),
         tube(modes=20, damping=0.01),
-        tube(modes=8, static_correction=True),
+        tube(1.0, modes=8, static_correction=True),
         sg.modal([12.0, 48.0], {"tip": [1.0, -1.0], "base": [0.2, 0.1]}, walls=sg.support("s", 1e-3, at="tip")),
     ]
 

@@ -1,7 +1,7 @@
 //! The table of contacts, against closed forms and the exact motion.
 
 use crate::common::event_driven::EventDriven;
-use crate::common::{self, MOREAU_JEAN, schemes, source};
+use crate::common::{self, MOREAU_JEAN, schemes, schemes_of_whole_steps, source};
 use signorini::{
     Chain, Contact, Integrator, Load, Options, Row, Scene, Scheme, Stepper, Table, TimeOptions, Wall, run,
 };
@@ -152,8 +152,8 @@ fn the_table_joins_the_steps_in_which_a_wall_pushes() {
         ("elastic", common::all_elastic(1.0)),
     ];
     for (name, scene) in scenes {
-        // `located` divides its steps: the instants of its contacts are none of the grid.
-        for scheme in schemes().into_iter().filter(|scheme| *scheme != Scheme::Located) {
+        // The instants of contacts are those of the grid.
+        for scheme in schemes_of_whole_steps() {
             let h = 1e-4;
             let mut stepper = Stepper::new(&scene, &scheme, h).expect("a sound scene");
             let rigid: Vec<bool> = stepper.scene().walls.iter().map(|wall| wall.law.is_rigid()).collect();

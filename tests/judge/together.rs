@@ -1,7 +1,7 @@
 //! A run looks at the steps between two contacts together: its rows, residuals and findings are
 //! those of a judge and a recorder that are shown one step after another.
 
-use crate::common::{INTEGRATORS, schemes, spring};
+use crate::common::{INTEGRATORS, schemes_of_whole_steps, spring};
 use crate::random_structures::Draws;
 use signorini::residual::{Judge, Residuals};
 use signorini::{Load, Options, Recorder, Scene, Scheme, Stepper, Table, Wall, run};
@@ -77,8 +77,7 @@ fn oscillator(draws: &mut Draws) -> Scene {
 fn steps_seen_together_are_judged_and_recorded_as_one_by_one() {
     let mut draws = Draws::new(41);
     let penalties = INTEGRATORS.map(|integrator| spring(1e4, integrator));
-    // `located` shows the parts of its steps.
-    let methods: Vec<Scheme> = schemes().into_iter().filter(|s| *s != Scheme::Located).chain(penalties).collect();
+    let methods: Vec<Scheme> = schemes_of_whole_steps().into_iter().chain(penalties).collect();
     for number in 0..60 {
         let scene = oscillator(&mut draws);
         let scheme = methods[number % methods.len()];

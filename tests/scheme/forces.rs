@@ -1,7 +1,7 @@
 //! The contact force itself, the purpose of a run: of every scheme, as an oscillator and as a
 //! structure, on rigid and elastic walls.
 
-use crate::common::{self, schemes, source};
+use crate::common::{self, schemes_of_whole_steps, source};
 use crate::random_structures::{at, chain, on};
 use signorini::{
     Integrator, Load, Options, PenaltyLaw, Row, Scene, Scheme, Side, Stepper, System, Table, Wall, WallLaw, run,
@@ -11,7 +11,7 @@ use signorini::{
 const STAND_IN: f64 = 1e6;
 
 fn every() -> Vec<Scheme> {
-    let mut all = schemes();
+    let mut all = schemes_of_whole_steps();
     all.extend([0.0, 1.0].map(|rho| Scheme::GeneralizedAlpha { rho }));
     all.push(Scheme::Event);
     all

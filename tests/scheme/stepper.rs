@@ -1,6 +1,6 @@
 //! The stepper: allocations, co-simulation, blows, and what is recorded of its steps.
 
-use crate::common::{self, INTEGRATORS, MOREAU_JEAN, penalty, schemes, source, spring};
+use crate::common::{self, INTEGRATORS, MOREAU_JEAN, penalty, schemes, schemes_of_whole_steps, source, spring};
 use crate::counting;
 use crate::random_structures;
 use signorini::qp::Backend;
@@ -13,7 +13,7 @@ use signorini::{
 
 #[test]
 fn no_step_after_the_first_allocates() {
-    let mut scheme_list = schemes();
+    let mut scheme_list = schemes_of_whole_steps();
     scheme_list.extend(INTEGRATORS.map(|i| penalty(1e-9, i)));
     for scene in [source(0.8, 0.8), common::elastic(3.0, 0.5), common::all_elastic(1.0)] {
         for scheme in &scheme_list {
@@ -50,7 +50,7 @@ fn no_step_of_a_structure_after_the_first_allocates() {
             scene.with_wall(random_structures::at(upper, place.clone())).with_wall(random_structures::at(lower, place));
     }
     let scene = scene.with_load(Load::harmonic(50.0, 5.0, 0.0));
-    for scheme in schemes() {
+    for scheme in schemes_of_whole_steps() {
         let mut stepper = Stepper::new(&scene, &scheme, 1e-4).expect("a sound scene");
         stepper.step().expect("a step");
         let before = counting::count();
@@ -153,7 +153,7 @@ fn a_run_is_its_steps_and_its_columns_sum_to_its_impulses() {
         source(0.4, 0.9).with_load(Load::impulse(0.1, 0.25)).with_load(Load::impulse(-0.05, 0.0)),
     ];
     for scene in scenes {
-        for scheme in schemes() {
+        for scheme in schemes_of_whole_steps() {
             // 7 ms do not divide a second: rows of a 143rd, steps that divide them.
             for (step, sample) in [(1e-4, None), (1e-4, Some(7e-3)), (3e-4, Some(1e-2))] {
                 let time = TimeOptions { sample, ..TimeOptions::with_step(step) };

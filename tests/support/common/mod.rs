@@ -143,6 +143,12 @@ pub const CONSTRAINED: [Scheme; 8] = [
     Scheme::Located,
 ];
 
+/// As [`schemes`], but for `located`: those of which each step is one of the grid, with a fixed
+/// relation of its states, and of which none allocates after the first.
+pub fn schemes_of_whole_steps() -> Vec<Scheme> {
+    schemes().into_iter().filter(|scheme| *scheme != Scheme::Located).collect()
+}
+
 /// Every scheme on a grid; the penalty with a spring that a step of 0.1 ms resolves.
 pub fn schemes() -> Vec<Scheme> {
     let mut all = CONSTRAINED.to_vec();
