@@ -88,7 +88,8 @@ fn my_own_paper_figure_in_ten_minutes() {
     let dir = tempfile::tempdir().unwrap();
     let (files, commands, said) = follow("docs/own-paper-figure.md", dir.path());
     assert_eq!((files, commands), (1, 5));
-    for word in ["stop-upper", "symmetry-breaking", "generalized-alpha"] {
+    // Of the chart the exact motion: which scheme on a grid is the cheapest depends on the machine.
+    for word in ["stop-upper", "symmetry-breaking", "event"] {
         assert!(said.contains(word), "{word}: {said}");
     }
     for file in [
