@@ -86,9 +86,9 @@ fn unusual(scene: &Scene) -> Option<String> {
 fn clamped(scene: &Scene) -> Option<String> {
     let rigid =
         |side| scene.walls.iter().filter(move |wall| wall.law.is_rigid() && !wall.is_round() && wall.side() == side);
-    let closed = |upper: &Wall, lower: &Wall| {
-        upper.row() == lower.row() && upper.position() - lower.position() <= scene.touching_distance()
-    };
+    let touch = scene.touching_distance();
+    let closed =
+        |upper: &Wall, lower: &Wall| upper.position() - lower.position() <= touch && upper.row() == lower.row();
     let (upper, lower) = rigid(Side::Upper)
         .find_map(|upper| rigid(Side::Lower).find(|lower| closed(upper, lower)).map(|lower| (upper, lower)))?;
     Some(format!(
