@@ -151,6 +151,20 @@ def test_studies_have_short_representations() -> None:
     assert repr(ball).startswith("<Stability: ") and len(repr(ball)) < 60
 
 
+def test_the_legend_of_a_stability_map_is_whole_beside_long_names() -> None:
+    made = sg.stability(sg.load("bouncing-ball"), finest=0.03, per_decade=2, contacts=4)
+    ax = made.plot()
+    ax.figure.canvas.draw()
+    assert max(len(text.get_text()) for text in ax.get_yticklabels()) > 30
+    legend, width = ax.get_legend().get_window_extent(), ax.figure.bbox.width
+    assert 0.0 <= legend.x0 and legend.x1 <= width
+    # Numbers on the axis of steps stand apart.
+    boxes = [text.get_window_extent() for text in ax.get_xticklabels(which="both") if text.get_text()]
+    inside = sorted((box.x0, box.x1) for box in boxes if ax.bbox.x0 - 1.0 <= box.x0 <= ax.bbox.x1)
+    assert len(inside) > 1 and all(a[1] < b[0] for a, b in zip(inside, inside[1:], strict=False))
+    plt.close("all")
+
+
 def test_axes_have_names_and_units() -> None:
     case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
     made = sg.bifurcation(case, "load.1.harmonic.frequency", [5.0], settle=20, keep=5, follow="up")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._core import _unit
-from ._types import sequence
+from ._types import Array, sequence
 
 if TYPE_CHECKING:
     from ._bifurcation import Bifurcation
@@ -49,11 +49,12 @@ def _new(rows: int, height: float) -> Any:
     return axes
 
 
-def _legend(ax: Any) -> None:
-    """A legend above the axes, where no curve is, in as many columns as fit beside one another."""
+def _legend(ax: Any, beside: int = 0) -> None:
+    """A legend above the axes, where no curve is, in as many columns as fit beside one another, and
+    beside names of ``beside`` letters on the vertical axis."""
     longest = max(len(name) for name in ax.get_legend_handles_labels()[1])
     # Inches of a handle with its margins, and of a letter.
-    columns = int((_WIDTH - 1.0) / (0.5 + 0.085 * longest))
+    columns = int((_WIDTH - 1.0 - 0.085 * beside) / (0.5 + 0.085 * longest))
     ax.legend(
         loc="lower left", bbox_to_anchor=(0.0, 0.97), ncols=min(max(columns, 1), 4), fontsize="small", frameon=False
     )
@@ -144,6 +145,16 @@ def chart(made: Chart, quantity: str, ax: Any = None) -> Any:
     return ax
 
 
+def _log_steps(ax: Any, steps: Array) -> None:
+    """A logarithmic axis of steps, with numbers at 1, 2 and 5 of each decade where there are few."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    ax.set_xscale("log")
+    few = steps.max() < 100.0 * steps.min()
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+
+
 def stability(made: Stability, ax: Any = None) -> Any:
     """The class of every step, one line per scheme: see `Stability.plot`."""
     schemes = list(dict.fromkeys(made.stable["scheme"]))
@@ -157,11 +168,11 @@ def stability(made: Stability, ax: Any = None) -> Any:
         ]
         rows = [schemes.index(scheme) for scheme in table["scheme"][own]]
         ax.scatter(table["step_s"][own], rows, marker="s", s=60, color=tone, edgecolor="k", linewidth=0.4, label=name)
-    ax.set_xscale("log")
+    _log_steps(ax, table["step_s"])
     ax.set_yticks(range(len(schemes)), schemes)
     ax.invert_yaxis()
     _frame(ax, "step (s)", "")
-    _legend(ax)
+    _legend(ax, beside=max(map(len, schemes)))
     return ax
 
 
