@@ -4,7 +4,7 @@ use super::boundary::BoundaryLaw;
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::Kind;
-use super::strobe::{Scales, is_stable, square};
+use super::strobe::{Scales, is_stable, largest_first, square};
 use crate::error::Result;
 use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 
@@ -56,9 +56,7 @@ impl Floquet {
             return Self { multipliers: own, half: None, trace, determinant };
         }
         let mut multipliers: Vec<[f64; 2]> = own.iter().copied().map(square).collect();
-        // Of a conjugate pair the one with the positive imaginary part comes first, as of every
-        // map.
-        multipliers.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])).then(b[1].total_cmp(&a[1])));
+        multipliers.sort_by(|a, b| largest_first(*a, *b));
         Self { multipliers, half: Some(own), trace, determinant }
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::scene::State;
 use nalgebra::{Complex, DMatrix, DVector};
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 /// A state of a periodic orbit of a structure.
@@ -77,8 +78,14 @@ pub(crate) fn newton_step(derivative: &DMatrix<f64>, gap: &DVector<f64>) -> Opti
 /// The eigenvalues of a map's derivative, the largest first.
 pub(crate) fn multipliers(derivative: &DMatrix<f64>) -> Vec<Complex<f64>> {
     let mut all: Vec<Complex<f64>> = derivative.complex_eigenvalues().iter().copied().collect();
-    all.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
+    all.sort_by(|a, b| largest_first([a.re, a.im], [b.re, b.im]));
     all
+}
+
+/// The order of multipliers, real and imaginary part: the largest first, of a conjugate pair the
+/// one with the positive imaginary part.
+pub(super) fn largest_first([a, ai]: [f64; 2], [b, bi]: [f64; 2]) -> Ordering {
+    b.hypot(bi).total_cmp(&a.hypot(ai)).then(bi.total_cmp(&ai))
 }
 
 /// A multiplier nearer to the unit circle than this lies on it: more than the rounding of an orbit

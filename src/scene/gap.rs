@@ -68,8 +68,7 @@ impl Scene {
             self.system.stiffness_form(&row, &row) > 0.0
         };
         let alone = || largest(near.iter().filter(|(wall, _)| held(wall)).map(|(_, start)| *start));
-        let least = SNUG * self.length_of_vibration();
-        gap_between(&near).or_else(|| alone().filter(|gap| *gap >= least))
+        gap_between(&near).or_else(|| alone().filter(|gap| *gap >= SNUG * self.length_of_vibration()))
     }
 
     /// A length of periodic motions, m: [`Scene::orbit_gap`], else how far the loads that change
