@@ -13,6 +13,11 @@ const NEAR: f64 = 1e-3;
 /// Number of repetitions required.
 const REPEATS: usize = 3;
 
+/// Largest relative change of the squared distances between the states of one repetition, over two
+/// repetitions. A transient that turns about an orbit of fewer periods, by multipliers of modulus μ,
+/// changes them by 1 − μ⁴ᴺ.
+const LASTING: f64 = 0.05;
+
 /// Records the state at the end of every period of the window.
 #[derive(Debug, Clone)]
 pub(super) struct Strobe {
@@ -80,8 +85,9 @@ impl Strobe {
 
 /// The smallest number of periods N up to 32 for which each of the last 3 N of `states`, one per
 /// `period` (s), equals the one N before it, to 1e-3 of the `gap` (m), or else of the largest of
-/// the states, and of that length times the angular frequency; `None` if there is no such N. An N
-/// for which too few states were kept is not tried.
+/// the states, and of that length times the angular frequency; `None` if there is no such N, or if
+/// what tells these N periods from fewer decays or grows: a transient that has not settled. An N for
+/// which too few states were kept is not tried.
 pub(super) fn repeats(states: &[&State], period: f64, gap: Option<f64>) -> Option<usize> {
     let omega = std::f64::consts::TAU / period;
     let largest = |of: fn(&State) -> &Vec<f64>| states.iter().flat_map(|s| of(s)).fold(0.0, |x: f64, q| x.max(q.abs()));
@@ -91,13 +97,26 @@ pub(super) fn repeats(states: &[&State], period: f64, gap: Option<f64>) -> Optio
         apart(&a.q, &b.q, length) && apart(&a.v, &b.v, length * omega)
     };
     let count = states.len();
-    (1..=MOST_PERIODS).find(|&n| {
+    let periods = (1..=MOST_PERIODS).find(|&n| {
         count >= (REPEATS + 1) * n
             && (count - REPEATS * n..count).all(|j| match (states.get(j), states.get(j - n)) {
                 (Some(a), Some(b)) => near(a, b),
                 _ => false,
             })
-    })
+    })?;
+    // The squared distances of the N states up to the one numbered `end` from those `fewer` periods
+    // before each.
+    let squared = |fewer: usize, end: usize| -> f64 {
+        let part = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum::<f64>();
+        let apart = |(a, b): (&&State, &&State)| part(&a.q, &b.q) + part(&a.v, &b.v) / omega.powi(2);
+        let pairs = states.iter().zip(states.iter().skip(fewer)).skip(end - fewer - periods);
+        pairs.take(periods).map(apart).sum()
+    };
+    let lasts = |fewer: usize| {
+        let [first, last] = [count - 2 * periods, count].map(|end| squared(fewer, end));
+        (last - first).abs() <= LASTING * first
+    };
+    (1..periods).filter(|fewer| periods.is_multiple_of(*fewer)).all(lasts).then_some(periods)
 }
 
 #[cfg(test)]
@@ -159,6 +178,18 @@ mod tests {
         assert_eq!(strobe(&three).repeats(Some(1.0)), Some(3));
         let rising: Vec<f64> = (0..40).map(f64::from).collect();
         assert_eq!(strobe(&rising).repeats(Some(1.0)), None);
+        // A transient that changes sign from period to period, and turns in five: the orbit, of one
+        // period, is not reached yet.
+        let turning = |share: f64| {
+            let at = |k: i32| 0.5 + 0.005 * 0.97_f64.powi(k) * (TAU * share * f64::from(k)).cos();
+            (0..40).map(at).collect::<Vec<f64>>()
+        };
+        assert_eq!(strobe(&turning(0.5)).repeats(Some(1.0)), None);
+        assert_eq!(strobe(&turning(0.2)).repeats(Some(1.0)), None);
+        // One about two periods.
+        let about_two: Vec<f64> =
+            two.iter().cycle().zip(turning(0.25)).take(40).map(|(x, transient)| x + transient).collect();
+        assert_eq!(strobe(&about_two).repeats(Some(1.0)), None);
         // Too few instants to decide.
         assert_eq!(strobe(&[1.0, 1.0]).repeats(Some(1.0)), None);
         // Without a gap a motion is measured by its own size.

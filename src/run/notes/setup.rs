@@ -259,7 +259,9 @@ fn struck_resolved(scene: &Scene, step: f64) -> Option<String> {
 /// ω of the fastest of `modes` that contributes a relevant share of the static compliance at a wall
 /// or load, rad/s; that of the slowest where there is neither.
 fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
-    let rows = scene.walls.iter().map(|wall| wall.row()).chain(scene.loads.iter().map(|load| &load.at));
+    let flats = scene.walls.iter().filter(|wall| !wall.is_round()).map(Wall::row);
+    let holes = scene.holes().flat_map(|hole| [&hole.at.y, &hole.at.z]);
+    let rows = flats.chain(holes).chain(scene.loads.iter().map(|load| &load.at));
     let fastest = |row: &Row| {
         let part = |&(i, weight): &(usize, f64)| {
             let (omega, k) = *modes.get(i)?;
