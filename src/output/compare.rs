@@ -137,7 +137,7 @@ fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Resu
 
 /// `compare.csv`: one row per method.
 fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
-    let columns: [csv::Column<'_, &Row>; 17] = [
+    let columns: [csv::Column<'_, &Row>; 18] = [
         ("method", &|row| row.method.to_string()),
         ("step_s", &|row| digits(ran(row).filter(|_| !row.method.scheme.is_exact()).map(|run| run.grid.step))),
         ("restitution", &|row| digits(row.restitution.map(|e| e.median))),
@@ -150,6 +150,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         ("penetration_m", &|row| digits(ran(row).map(|run| run.residuals.penetration_m))),
         ("force_largest_N", &|row| digits(ran(row).and_then(largest_force))),
         ("peak_force_N", &|row| digits(ran(row).and_then(|run| peak(case, run)))),
+        ("work_rate_W", &|row| digits(ran(row).and_then(work_rate))),
         ("energy_residual", &|row| digits(ran(row).map(|run| run.residuals.energy.residual))),
         ("complementarity_residual", &|row| digits(ran(row).map(|run| run.residuals.complementarity))),
         ("step_ns", &|row| digits(row.step_ns)),
@@ -187,6 +188,11 @@ pub(super) fn largest_force(run: &Run) -> Option<f64> {
     let walls = run.statistics.walls.iter().filter_map(|wall| wall.force_largest);
     let supports = run.statistics.supports.iter().filter_map(|support| support.force.as_ref()?.largest);
     walls.chain(supports).map(|largest| largest.mean_n).reduce(f64::max)
+}
+
+/// Work rate of all supports over the window, W; `None` without a support.
+fn work_rate(run: &Run) -> Option<f64> {
+    run.statistics.wear.iter().map(|wear| wear.work_rate_w).reduce(|sum, rate| sum + rate)
 }
 
 /// Largest force of the contacts in the window at places without an impact, N.

@@ -125,6 +125,14 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
             });
         }
     }
+    for support in &case.scene.supports {
+        let rate = |run: &Run| {
+            run.statistics.wear.iter().find(|wear| wear.support == support.name).map(|wear| wear.work_rate_w)
+        };
+        quantity(&format!("work rate {} (mW)", support.name), &|_, run| {
+            rate(run).map_or_else(dash, |rate| format!("{:.4}", 1e3 * rate))
+        });
+    }
     quantity("energy residual", &|_, run| short(run.residuals.energy.residual));
     quantity("compl. residual", &|_, run| short(run.residuals.complementarity));
     quantity("ns / step", &|row, _| row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")));

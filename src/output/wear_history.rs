@@ -192,7 +192,8 @@ pub fn document(case: &Case, found: &WearHistories) -> Value {
 }
 
 /// When the depth of each support reaches the limit of the case, as JSON, by its mean and in each
-/// history; null where it does not.
+/// history; null where it does not. Where it does so after the end of the histories only, the time
+/// at their last rates, null else.
 #[must_use]
 pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
     let limit = case.wear.limit;
@@ -204,9 +205,14 @@ pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
             let each = limit.map_or(Vec::new(), |limit| found.reaches_by_history(support, limit, value));
             let each: Vec<Option<f64>> = each.into_iter().map(in_years).collect();
             let half_width = limit.and_then(|limit| found.half_width_of_time(support, limit, value));
+            let later = limit.filter(|_| mean.is_none());
+            let later = later.and_then(|limit| found.reaches_at_last_rate(support, limit, value));
             own.insert(format!("limit_{depth}_years"), json!(in_years(mean)));
             own.insert(format!("limit_{depth}_half_width_95_years"), json!(in_years(half_width)));
             own.insert(format!("limit_{depth}_years_of_histories"), json!(each));
+            own.insert(format!("limit_{depth}_years_at_last_rate"), json!(in_years(later.map(|(time, _)| time))));
+            let half_width = in_years(later.and_then(|(_, half_width)| half_width));
+            own.insert(format!("limit_{depth}_half_width_95_years_at_last_rate"), json!(half_width));
         };
         add("deepest", WearQuantity::DepthDeepest);
         add("all_round", WearQuantity::DepthAllRound);

@@ -204,6 +204,20 @@ fn a_limit_is_reached_after_years_that_are_told() {
     let other: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert!((other["limits"][0]["limit_m"].as_f64().unwrap() - 0.33e-3).abs() < 1e-12);
     assert_eq!(other["years"], document["years"]);
+    // After two years the limit is far: the document has what the text says, at the last rates.
+    let soon = ["--set", "wear.limit=0.1", "--histories", "2", "--years", "2", "--json", "--out", "w2"];
+    let (out, _) = said(path, &[&["wear"], &TUBE[..], &soon].concat(), 0);
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let found = &document["limits"][0];
+    assert!(found["limit_one_scar_years"].is_null() && found["limit_one_scar_half_width_95_years"].is_null());
+    let later = found["limit_one_scar_years_at_last_rate"].as_f64().unwrap();
+    let half = found["limit_one_scar_half_width_95_years_at_last_rate"].as_f64().unwrap();
+    let remarks = document["remarks"].to_string();
+    let (before, _) = remarks.split_once(" if all of its wear comes off one scar").unwrap();
+    let (years, scatter) = before.rsplit_once("after ").unwrap().1.split_once(" ± ").unwrap();
+    // The text has two figures of the half width.
+    let [years, scatter] = [years, scatter].map(|words| words.parse::<f64>().unwrap());
+    assert!(later > 2.0 && (years - later).abs() < 0.06 * half && (scatter - half).abs() < 0.06 * half, "{remarks}");
     // A run tells of its scar by itself.
     let (_, err) = said(
         path,

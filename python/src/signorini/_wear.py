@@ -30,7 +30,8 @@ class LimitYears:
     without limit; each has its own deepest sector, earlier than the mean. The ``half_width`` of
     each is that of its 95 % interval: of the histories, where each reaches the limit (of the
     deepest that of the depth over its rate), or of a single one by the half widths of the work
-    rates of its windows.
+    rates of its windows. Where the limit is reached after the years followed only, ``at_last_rate``
+    of each is the year at the last rates, None else.
     """
 
     deepest: float | None
@@ -42,6 +43,9 @@ class LimitYears:
     deepest_half_width: float | None = None
     one_scar_half_width: float | None = None
     all_round_half_width: float | None = None
+    deepest_at_last_rate: float | None = None
+    one_scar_at_last_rate: float | None = None
+    all_round_at_last_rate: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +180,8 @@ def _limit_years(known: dict[str, Any]) -> LimitYears:
     years = [known[f"{name}_years"] for name in names]
     histories = [tuple(known[f"{name}_years_of_histories"]) for name in names]
     half_widths = [known[f"{name}_half_width_95_years"] for name in names]
-    return LimitYears(*years, *histories, *half_widths)
+    later = [known[f"{name}_years_at_last_rate"] for name in names]
+    return LimitYears(*years, *histories, *half_widths, *later)
 
 
 def wear(
