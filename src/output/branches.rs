@@ -140,6 +140,11 @@ impl Drawn<'_> {
         all
     }
 
+    /// The points on a branch, special points among them, as in `branches.csv`.
+    pub fn points_on(&self, branch: usize) -> impl Iterator<Item = &Point> {
+        self.points().into_iter().filter(move |(number, ..)| *number == branch + 1).map(|(_, _, point, _)| point)
+    }
+
     /// Writes one row per point of each branch, in order along it; special points stand among them
     /// with their label.
     pub fn branches(&self, path: &Path) -> Result<()> {
@@ -186,7 +191,7 @@ impl Drawn<'_> {
                 "events": first.map(|point| events(&point.orbit)),
                 "periods": first.map(|point| point.orbit.signature.periods),
                 "symmetric": first.map(|point| point.orbit.signature.symmetric),
-                "points": branch.points.len(),
+                "points": self.points_on(number).count(),
                 "from": first.map(|point| point.value),
                 "to": last.map(|point| point.value),
                 "found_at_special": branch.from.map(|special| special + 1),

@@ -200,6 +200,11 @@ fn branches_of_a_structure_are_written() {
     let grazes = graph["specials"].as_array().unwrap().iter().filter(|special| special["label"] == "grazing-in");
     assert!(grazes.clone().count() >= 2 && grazes.clone().all(|special| special["wall"] == "stop"));
     let table = fs::read_to_string(path.join("b/branches.csv")).unwrap();
+    // The document counts the points of the table, special ones among them.
+    for branch in graph["branches"].as_array().unwrap() {
+        let begins = format!("{},", branch["branch"]);
+        assert_eq!(branch["points"], table.lines().filter(|line| line.starts_with(&begins)).count());
+    }
     let header = table.lines().next().unwrap();
     assert!(header.contains("multiplier_4_im") && !header.contains("multiplier_5"), "{header}");
     let motion = fs::read_to_string(path.join("b/orbits.csv")).unwrap();

@@ -98,12 +98,12 @@ fn show_branches(answer: &mut Answer, drawn: &Drawn<'_>) {
             (None, Some(special)) => format!("special {}", special + 1),
             (None, None) => String::new(),
         };
-        let stable = branch.points.iter().filter(|point| point.floquet.is_stable()).count();
+        let stable = drawn.points_on(number).filter(|point| point.floquet.is_stable()).count();
         vec![
             (number + 1).to_string(),
             signature,
             first.orbit.signature.periods.to_string(),
-            branch.points.len().to_string(),
+            drawn.points_on(number).count().to_string(),
             stable.to_string(),
             format!("{:.9}", first.value),
             begins,
