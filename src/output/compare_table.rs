@@ -72,6 +72,12 @@ pub(super) fn force(newtons: Option<f64>) -> String {
     newtons.map_or_else(|| "-".to_owned(), |newtons| format!("{newtons:.2}"))
 }
 
+/// The work rate of a support in words, mW.
+fn work_rate(run: &Run, support: &str) -> String {
+    let own = run.statistics.wear.iter().find(|wear| wear.support == support);
+    own.map_or_else(|| "-".to_owned(), |wear| format!("{:.4}", 1e3 * wear.work_rate_w))
+}
+
 /// All quantities, one column per method, since there are more quantities than methods.
 #[must_use]
 pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
@@ -126,12 +132,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
         }
     }
     for support in &case.scene.supports {
-        let rate = |run: &Run| {
-            run.statistics.wear.iter().find(|wear| wear.support == support.name).map(|wear| wear.work_rate_w)
-        };
-        quantity(&format!("work rate {} (mW)", support.name), &|_, run| {
-            rate(run).map_or_else(dash, |rate| format!("{:.4}", 1e3 * rate))
-        });
+        quantity(&format!("work rate {} (mW)", support.name), &|_, run| work_rate(run, &support.name));
     }
     quantity("energy residual", &|_, run| short(run.residuals.energy.residual));
     quantity("compl. residual", &|_, run| short(run.residuals.complementarity));

@@ -14,8 +14,8 @@ const NEAR: f64 = 1e-3;
 const REPEATS: usize = 3;
 
 /// Largest relative change of the squared distances between the states of one repetition, over two
-/// repetitions. A transient that turns about an orbit of fewer periods, by multipliers of modulus μ,
-/// changes them by 1 − μ⁴ᴺ.
+/// repetitions. A transient that turns about an orbit of fewer periods, by multipliers of modulus
+/// μ, changes them by 1 − μ⁴ᴺ.
 const LASTING: f64 = 0.05;
 
 /// Records the state at the end of every period of the window.
@@ -86,8 +86,8 @@ impl Strobe {
 /// The smallest number of periods N up to 32 for which each of the last 3 N of `states`, one per
 /// `period` (s), equals the one N before it, to 1e-3 of the `gap` (m), or else of the largest of
 /// the states, and of that length times the angular frequency; `None` if there is no such N, or if
-/// what tells these N periods from fewer decays or grows: a transient that has not settled. An N for
-/// which too few states were kept is not tried.
+/// what tells these N periods from fewer decays or grows: a transient that has not settled. An N
+/// for which too few states were kept is not tried.
 pub(super) fn repeats(states: &[&State], period: f64, gap: Option<f64>) -> Option<usize> {
     let omega = std::f64::consts::TAU / period;
     let largest = |of: fn(&State) -> &Vec<f64>| states.iter().flat_map(|s| of(s)).fold(0.0, |x: f64, q| x.max(q.abs()));

@@ -91,8 +91,8 @@ enum Outcome {
 fn gains_energy(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
     use Integrator::{CentralDifference, Trapezoidal};
     let laws = scene.walls.iter().map(|wall| wall.law);
-    // The step of a fast mode is too long for what gains or loses energy of order h: each impact, and
-    // friction where the sliding velocity turns within the step.
+    // The step of a fast mode is too long for what gains or loses energy of order h: each impact,
+    // and friction where the sliding velocity turns within the step.
     let rubs = scene.walls.iter().any(|wall| wall.friction.acts());
     let of_order_h = match scheme {
         Scheme::GeneralizedAlpha { .. } => true,

@@ -19,9 +19,9 @@
 //!
 //! Order 1 through impacts, 2 while sliding with θ = ½. Without friction a step never adds energy.
 //! With friction it might where W couples normal and tangent and e > 0 (Kane & Levinson 1985,
-//! Dynamics: Theory and Applications): there, too, the contacts give up their rebounds. Where a step
-//! does not resolve a mode, hω ≥ 2, the sliding velocity may turn in every step, and friction, of
-//! one sign over the step, may add energy (∝ p_t·ẇ⁻) until the run diverges. If h v
+//! Dynamics: Theory and Applications): there, too, the contacts give up their rebounds. Where a
+//! step does not resolve a mode, hω ≥ 2, the sliding velocity may turn in every step, and friction,
+//! of one sign over the step, may add energy (½ p_t t·ẇ⁻) until the run diverges. If h v
 //! exceeds the gap, the body stands still between opposite sides of a hole: such steps are counted,
 //! and so is the largest angle by which a normal turned.
 //!
