@@ -184,6 +184,10 @@ impl Scene {
                 ));
             }
             support.members(&self.walls).try_for_each(|(_, wall)| support.check_wall(wall))?;
+            if support.hole(&self.walls).is_some() && support.walls.len() > 1 {
+                let value = format!("a round wall among {}", support.walls.len());
+                return Err(Error::invalid(key("walls"), value, "one round wall, or flat ones"));
+            }
         }
         for (index, wall) in self.walls.iter().enumerate() {
             let support = self.support_of(index);
@@ -219,7 +223,7 @@ impl Scene {
     fn check_hole(&self, wall: &Wall, owner: &Subject, gap: f64) -> Result<()> {
         positive(owner.clone().part("gap"), gap)?;
         if !wall.law.is_linear() {
-            let found = "that of a penalty";
+            let found = wall.law.kind();
             return Err(Error::invalid(owner.clone().part("law"), found, "a rigid or an elastic hole"));
         }
         wall.law.validate(|part: &'static str| owner.clone().part(part))?;

@@ -30,6 +30,9 @@ const STUDENT: f64 = 2.262_157_162_798_205;
 /// Relative rounding of the number of periods in a window.
 const ROUNDING: f64 = 1e-9;
 
+/// More periods than this in the window cannot be counted in doubles, 1/ε.
+const COUNTED: f64 = 1.0 / f64::EPSILON;
+
 /// A sum for each batch, and last one for what of the window lies before the first batch.
 pub(super) type BatchSums = [f64; BATCHES + 1];
 
@@ -66,8 +69,11 @@ impl Window {
 
     /// The same with batches of whole periods of `period` seconds.
     fn of_periods(self, period: f64) -> Self {
-        let all = (self.length / period * (1.0 + ROUNDING)) as u64;
-        let most = BATCHES as u64;
+        let all = self.length / period * (1.0 + ROUNDING);
+        if all > COUNTED {
+            return self;
+        }
+        let (all, most) = (all as u64, BATCHES as u64);
         // The number of batches that leaves the fewest periods before the first.
         let of = |batches: u64| batches * (all / batches);
         let batches = if all < most { all } else { (FEWEST..=most).max_by_key(|&n| of(n)).unwrap_or(most) };

@@ -2,7 +2,9 @@
 //! the start.
 //!
 //! For one degree of freedom the growth is exact: the derivative of the state with respect to the
-//! start, along an exact run ([`variation`](crate::variation)).
+//! start, along an exact run ([`variation`](crate::variation)). A rest on a rigid wall ends every
+//! change of what came before; from then on it is that of the state in which the body leaves, which
+//! a scheme meets with an error of its own.
 //!
 //! For several degrees of freedom the growth is estimated from below, by exact runs from slightly
 //! perturbed starts; where the exact scheme cannot follow the scene, by such runs of a stepping
@@ -93,6 +95,9 @@ impl Growth {
             products.push(if known { now() } else { DMatrix::from_element(2, 2, f64::NAN) });
             if !known {
                 break;
+            }
+            if product.matrix().iter().all(|entry| *entry == 0.0) {
+                product.restart();
             }
         }
         let (length, speed) = (scene.gap_scale(), if speed > 0.0 { speed } else { 1.0 });

@@ -6,7 +6,9 @@
 //! at every wall and probe. The growth is the largest √((wδ/gap)² + (ẇδ/speed)²) over its value at
 //! the start, at the same places. ẇδ is the slope of wδ between two rows, the smallest of those
 //! next to a row: at an impact wδ itself jumps, to −e wδ, and between the impacts of the two runs
-//! the velocities differ by the whole jump. A few random directions rarely include the worst one,
+//! the velocities differ by the whole jump. While a place is inside an elastic wall wδ counts alone:
+//! of two bodies that arrive δt apart the velocities differ by δt times the acceleration there, and
+//! no more once both have left. A few random directions rarely include the worst one,
 //! but soon turn towards it: where growth is large the estimate is too small by a factor of order
 //! 1.
 //!
@@ -80,7 +82,10 @@ fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64)
         for ((w, w_moved), probe) in base.displacements().iter().zip(moved.displacements()).zip(&watched.probes) {
             let seen = probe.at.dot(&beside.initial.v) - probe.at.dot(&watched.initial.v);
             start = start.max(seen.abs() / speed);
-            follow(base.time(), w, w_moved, (length, speed), &mut factor);
+            let elastic = watched.walls.iter().filter(|wall| !wall.law.is_rigid() && *wall.row() == probe.at);
+            let inside = |w: &f64| elastic.clone().any(|wall| wall.gap(*w) < 0.0);
+            let pressed: Vec<bool> = w.iter().zip(w_moved).map(|(w, moved)| inside(w) || inside(moved)).collect();
+            follow(base.time(), (w, w_moved, &pressed), (length, speed), &mut factor);
         }
     }
     let start = if start > 0.0 { start } else { delta };
@@ -89,9 +94,15 @@ fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64)
     Ok(Growth { time: base.time().to_vec(), factor, source })
 }
 
-/// Raises `factor` to the size of the difference of two columns at each row; NaN from the row on at
-/// which the difference is saturated, and where `moved` has no row: its run ended soon after that.
-fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), factor: &mut [f64]) {
+/// Raises `factor` to the size of the difference of two columns at each row, of the displacements
+/// alone where they are `pressed`; NaN from the row on at which the difference is saturated, and
+/// where `moved` has no row: its run ended soon after that.
+fn follow(
+    time: &[f64],
+    (w, moved, pressed): (&[f64], &[f64], &[bool]),
+    (length, speed): (f64, f64),
+    factor: &mut [f64],
+) {
     let difference = |row: usize| Some((moved.get(row)? - w.get(row)?, *time.get(row)?));
     let mut full = false;
     for (row, factor) in factor.iter_mut().enumerate() {
@@ -100,7 +111,8 @@ fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), f
             let ((a, t), (b, u)) = (difference(from)?, difference(from + 1)?);
             Some(((b - a) / (u - t)).abs())
         };
-        let rate = (row.saturating_sub(2)..row + 2).filter_map(slope).reduce(f64::min).unwrap_or(0.0);
+        let rates = (row.saturating_sub(2)..row + 2).filter_map(slope);
+        let rate = if pressed.get(row) == Some(&true) { None } else { rates.reduce(f64::min) }.unwrap_or(0.0);
         full |= now.is_nan() || now.abs() > FULL * length;
         *factor = if full { f64::NAN } else { worse(*factor, (now / length).hypot(rate / speed)) };
     }

@@ -1,7 +1,7 @@
 //! The growth of a perturbation, against runs that really are perturbed.
 
 use signorini::study::horizon::{Growth, LARGEST_GROWTH};
-use signorini::{Load, Scene, Scheme, Stepper, Wall};
+use signorini::{Integrator, Load, Options, PenaltyLaw, Scene, Scheme, Stepper, Wall, run};
 
 /// The source scene, for so many seconds.
 pub fn source(e: f64, duration: f64) -> Scene {
@@ -111,6 +111,50 @@ fn a_body_that_came_to_rest_has_forgotten_its_start() {
         .with_initial(&[1e-3], &[0.0])
         .with_duration(1.0);
     assert_eq!(*Growth::of(&scene).unwrap().factor.last().unwrap(), 0.0);
+}
+
+/// What comes after a rest is as sensitive as it is from a start just off the wall: the rest wipes
+/// out changes of the start, not those that the body leaves with.
+#[test]
+fn a_motion_after_a_rest_is_as_chaotic_as_any() {
+    let phase = std::f64::consts::FRAC_PI_2;
+    let resting = |place: f64| Scene {
+        loads: vec![Load::harmonic(3.0, 5.0, phase)],
+        ..source(1.0, 10.0).with_initial(&[place], &[0.0])
+    };
+    let [on, off] = [5e-3, 4.9e-3].map(|place| Growth::of(&resting(place)).unwrap());
+    assert!(on.until(10.0) > 1e10 && off.until(10.0) > 1e10, "{:e} {:e}", on.until(10.0), off.until(10.0));
+    let horizon = on.horizon(LARGEST_GROWTH);
+    assert!(horizon > 0.1 && horizon < 5.0, "{horizon}");
+    // What a run of another scheme differs by stays below a tenth of the gap up to there, and is as
+    // large as the gap later.
+    let scene = resting(5e-3);
+    let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-4).with_sample(0.01)).unwrap();
+    let located = run(&scene, &Scheme::Located, &Options::with_step(1e-4).with_sample(0.01)).unwrap();
+    let [exact, located] = [&exact, &located].map(|run| &run.trajectory);
+    let apart = |within: &dyn Fn(f64) -> bool| {
+        let rows = exact.time().iter().zip(exact.displacements()[0].iter().zip(&located.displacements()[0]));
+        rows.filter(|(time, _)| within(**time)).map(|(_, (a, b))| (a - b).abs()).fold(0.0, f64::max)
+    };
+    assert!(apart(&|time| time < horizon) < 5e-4, "{:e}", apart(&|time| time < horizon));
+    assert!(apart(&|time| time > 5.0) > 5e-3);
+}
+
+/// A free body that strikes a wall of Hertz's law once and leaves at its speed of approach: starts
+/// that differ in speed by δ are as far apart after the impact as they would be on a straight way.
+/// Within the contact, which takes a hundredth of the flight, their velocities differ by some 100 δ.
+#[test]
+fn one_elastic_impact_does_not_end_a_comparison() {
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::upper("stop", 0.5).with_hunt_crossley(1e7, 1.5, 0.0))
+        .with_initial(&[0.0], &[1.0])
+        .with_duration(1.0);
+    let method = Scheme::Penalty { law: PenaltyLaw::None, integrator: Integrator::DiscreteGradient }.into();
+    let growth = Growth::by_runs(&scene, &method, 1e-4).unwrap();
+    assert_eq!(growth.horizon(LARGEST_GROWTH), scene.duration);
+    // The way of 1 m over the gap of 0.5 m, and the speed.
+    let way = 1.0_f64.hypot(2.0);
+    assert!((0.5 * way..1.5 * way).contains(&growth.until(1.0)), "{}", growth.until(1.0));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Notes on what a user would otherwise notice late, and no notes where there is nothing to say.
 use signorini::case::Embedded;
-use signorini::{Chain, Load, Options, Probe, Row, Scene, Scheme, Table, Wall, WallLaw, run};
+use signorini::linear::Symmetric;
+use signorini::{Chain, Load, Options, PlaneRows, Probe, Row, Scene, Scheme, Structure, Table, Wall, WallLaw, run};
 use std::fs;
 use std::process::Command;
 
@@ -119,6 +120,34 @@ fn a_step_that_passes_over_a_mode_is_said() {
     let said = notes(&cut, &MOREAU, 0.02);
     assert!(said.contains("the fastest mode that a wall or load moves by 1 % or more"), "{said}");
     assert_eq!(notes(&cut, &MOREAU, 5e-3), "");
+}
+
+/// Round supports count as walls do: 20 Hz along the second mode, with a sixteenth of the
+/// first's compliance.
+#[test]
+fn a_mode_that_a_round_support_meets_is_resolved_or_said() {
+    let mass = Symmetric::diagonal(&[1.0; 4]);
+    let stiffness = Symmetric::diagonal(&[5.0, 20.0, 5.0, 20.0].map(|hz| (std::f64::consts::TAU * hz).powi(2)));
+    let structure = Structure { mass, damping: Symmetric::diagonal(&[0.0; 4]), stiffness };
+    let row = |dofs: [usize; 2]| Row::new(dofs.map(|i| (i, 1.0)).to_vec());
+    let at = PlaneRows { y: row([0, 1]), z: row([2, 3]) };
+    let held =
+        Scene::structure(structure).with_support("plate", at.clone(), [0.0; 2], vec![Wall::round("plate", at, 1e-3)]);
+    let said = notes(&held, &MOREAU, 8e-3);
+    assert!(
+        said.contains("the fastest mode that a wall or load moves by 1 % or more, 20 Hz, takes 6.2 steps"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_load_that_never_acts_is_said() {
+    let late = scene().with_load(Load::impulse(1.0, 1e3));
+    let said = notes(&late, &MOREAU, 1e-3);
+    assert!(said.contains("the blow of load 2 at 1000 s never comes: the run ends at"), "{said}");
+    let nowhere = scene().with_load(Load { at: Row::new(vec![(0, 1.0), (0, -1.0)]), ..Load::constant(1.0) });
+    let said = notes(&nowhere, &MOREAU, 1e-3);
+    assert!(said.contains("load 2 acts on nothing"), "{said}");
 }
 
 #[test]

@@ -27,6 +27,7 @@ const USUAL: [f64; 2] = [1e-2, 1e5];
 pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64, touched: bool) -> Vec<String> {
     let mut notes: Vec<String> = scene.loads.iter().enumerate().filter_map(|(i, load)| span(scene, i, load)).collect();
     notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| turned(i, load)));
+    notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| idle(scene, i, load)));
     notes.extend(unusual(scene));
     notes.extend(unstable(scene));
     notes.extend(clamped(scene));
@@ -57,6 +58,17 @@ fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
         ));
     }
     (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
+}
+
+/// A note on a load that moves nothing: a blow after the end of the run, or a place without a degree
+/// of freedom.
+fn idle(scene: &Scene, index: usize, load: &Load) -> Option<String> {
+    let (number, end) = (index + 1, scene.duration);
+    if load.at.is_blind() {
+        return Some(format!("load {number} acts on nothing: no degree of freedom moves its place"));
+    }
+    let LoadKind::Impulse { time, .. } = load.kind else { return None };
+    (time > end).then(|| format!("the blow of load {number} at {time} s never comes: the run ends at {end} s"))
 }
 
 /// A note on a harmonic load whose phase suggests degrees.
