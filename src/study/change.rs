@@ -34,6 +34,9 @@ pub struct WallChange {
     pub wall: String,
     /// Which of the two it is.
     pub kind: PlaceKind,
+    /// Its index among the walls of the scene.
+    #[serde(skip)]
+    pub(crate) index: usize,
     /// Change of its impulse, at a round support of Σ|p|; the reference is at least m v.
     pub impulse: f64,
     /// Change of its number of contacts; the reference is at least 1. `None` at a rigid wall where
@@ -116,6 +119,7 @@ impl Change {
             walls.push(WallChange {
                 wall: wall.name.clone(),
                 kind: PlaceKind::Wall,
+                index,
                 impulse: relative(impulses, most.impulse.max(mass * speed)),
                 contacts,
                 impact_energy: relative(of(|w| w.impact_power_w), most.power.max(0.5 * mass * speed * speed / window)),
@@ -178,6 +182,7 @@ fn round_changes(
         WallChange {
             wall: round.name.to_owned(),
             kind: PlaceKind::Support,
+            index,
             impulse: relative(statistics.map(|s| s.impulse(index)), most.impulse.max(mass * speed)),
             contacts,
             impact_energy: relative(runs.map(met), most.power.max(energy(speed) / window)),

@@ -82,6 +82,33 @@ fn the_mass_at_a_wall_falls_as_modes_are_added() {
     }
 }
 
+/// Numbers stand under the names of their walls, also where a round support comes before flats.
+#[test]
+fn each_wall_has_its_own_numbers_in_any_order_of_supports() {
+    let text = "[system]\nplanes = 2\nmodes = 3\n[system.beam]\nlength = 2.0\nyoungs_modulus = 2e11\n\
+        density = 7850.0\nouter_diameter = 0.02\ninner_diameter = 0.016\nelements = 16\nleft = \"pinned\"\n\
+        right = \"pinned\"\n[system.damping]\nratio = 0.01\n\
+        [[support]]\nname = \"plate\"\nat = { position = 0.7 }\nshape = \"round\"\ngap = 2e-4\n\
+        restitution = 0.5\nwidth = 0.02\n\
+        [[support]]\nname = \"bars\"\nat = { position = 1.0 }\nshape = \"flats\"\ndirections = [0, 90, 180, 270]\n\
+        gap = 1.5e-4\nrestitution = 0.5\nwidth = 0.02\n\
+        [[load]]\nat = { position = 0.9 }\ndirection = 0\nharmonic = { amplitude = 30.0, frequency = 11.0 }\n\
+        [[load]]\nat = { position = 0.9 }\ndirection = 90\nharmonic = { amplitude = 20.0, frequency = 17.0 }\n\
+        [time]\nend = 1.0\nstep = 2e-4\nsample = 1e-2\n";
+    let case = Case::parse(text, "supports.toml", "").unwrap_or_else(|error| panic!("{error}"));
+    let (found, run) = (cost(&case).unwrap(), made(&case));
+    let masses = case.scene.wall_masses();
+    assert_eq!((found.walls.len(), case.scene.walls.len()), (5, 5));
+    for wall in &found.walls {
+        let index = case.scene.walls.iter().position(|own| own.name == wall.wall).unwrap();
+        assert_eq!(wall.effective_mass_kg[0], masses[index], "{}", wall.wall);
+        let own = &run.statistics.walls[index];
+        assert_eq!(own.wall, wall.wall);
+        assert_eq!(wall.impulse_n_s[0], own.force.unwrap().impulse_n_s, "{}", wall.wall);
+        assert!(wall.impulse_n_s[0] != 0.0, "{}", wall.wall);
+    }
+}
+
 #[test]
 fn a_static_correction_gives_the_textbooks_reaction_with_one_mode() {
     // Two spans under an even load: 5/8 of it rests on the middle. One mode alone misses the

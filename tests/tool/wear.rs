@@ -205,7 +205,7 @@ fn a_limit_is_reached_after_years_that_are_told() {
     assert!((other["limits"][0]["limit_m"].as_f64().unwrap() - 0.33e-3).abs() < 1e-12);
     assert_eq!(other["years"], document["years"]);
     // After two years the limit is far: the document has what the text says, at the last rates.
-    let soon = ["--set", "wear.limit=0.1", "--histories", "2", "--years", "2", "--json", "--out", "w2"];
+    let soon = ["--set", "wear.limit=0.9", "--histories", "2", "--years", "2", "--json", "--out", "w2"];
     let (out, _) = said(path, &[&["wear"], &TUBE[..], &soon].concat(), 0);
     let document: serde_json::Value = serde_json::from_str(&out).unwrap();
     let found = &document["limits"][0];

@@ -174,7 +174,9 @@ impl Scene {
         for (i, ((row, mass), mass_kept)) in
             places.iter().zip(self.wall_masses()).zip(reduced.wall_masses()).enumerate()
         {
-            if let Some(first) = places[..i].iter().position(|other| other == row) {
+            // Round walls have no row of their own.
+            let same = places[..i].iter().position(|other| other == row).filter(|_| !row.entries().is_empty());
+            if let Some(first) = same {
                 walls.push(walls[first]);
                 continue;
             }

@@ -235,12 +235,13 @@ impl Truncation {
         // in one of the runs only, does not dominate.
         let scene = &cuts[1].scene;
         // Sliders come after all walls of a reduction, and are none of them.
-        let count = change.walls.len().min(cuts[1].walls.len());
+        let count = cuts[1].walls.len();
         let felt: Vec<[Felt; 2]> = (0..count).map(|index| runs.map(|run| Felt::of(run, scene, index))).collect();
         let most = |part: fn(&Felt) -> Option<f64>| felt.iter().flatten().filter_map(part).fold(0.0, f64::max);
         let (most_force, most_impulse) = (most(|felt| felt.peak), most(|felt| felt.largest));
         let masses = cuts.map(|cut| cut.scene.wall_masses());
-        for (index, (wall, felt)) in change.walls.iter().zip(&felt).enumerate() {
+        for (wall, felt) in change.walls.iter().filter_map(|wall| Some((wall, felt.get(wall.index)?))) {
+            let index = wall.index;
             let peaks = [felt[0].peak, felt[1].peak];
             let largest = [felt[0].largest, felt[1].largest];
             let peak_change = match peaks {
