@@ -6,9 +6,9 @@
 //! at every wall and probe. The growth is the largest √((wδ/gap)² + (ẇδ/speed)²) over its value at
 //! the start, at the same places. ẇδ is the slope of wδ between two rows, the smallest of those
 //! next to a row: at an impact wδ itself jumps, to −e wδ, and between the impacts of the two runs
-//! the velocities differ by the whole jump. While a place is inside an elastic wall wδ counts alone:
-//! of two bodies that arrive δt apart the velocities differ by δt times the acceleration there, and
-//! no more once both have left. A few random directions rarely include the worst one,
+//! the velocities differ by the whole jump. While a place is inside an elastic wall wδ counts
+//! alone: of two bodies that arrive δt apart the velocities differ by δt times the acceleration
+//! there, and no more once both have left. A few random directions rarely include the worst one,
 //! but soon turn towards it: where growth is large the estimate is too small by a factor of order
 //! 1.
 //!

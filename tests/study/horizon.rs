@@ -142,7 +142,8 @@ fn a_motion_after_a_rest_is_as_chaotic_as_any() {
 
 /// A free body that strikes a wall of Hertz's law once and leaves at its speed of approach: starts
 /// that differ in speed by δ are as far apart after the impact as they would be on a straight way.
-/// Within the contact, which takes a hundredth of the flight, their velocities differ by some 100 δ.
+/// Within the contact, which takes a hundredth of the flight, their velocities differ by some 100
+/// δ.
 #[test]
 fn one_elastic_impact_does_not_end_a_comparison() {
     let scene = Scene::oscillator(1.0, 0.0, 0.0)

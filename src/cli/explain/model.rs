@@ -169,6 +169,7 @@ fn turbulence(case: &Case) -> Vec<String> {
 
 /// Each support, and how its flats are treated by the schemes.
 pub(super) fn supports(case: &Case) -> Vec<String> {
+    let masses = case.scene.wall_masses();
     let line = |(index, (support, there)): (usize, (&Support, &scene::Support))| {
         let off = match there.centre {
             [0.0, 0.0] => String::new(),
@@ -191,8 +192,10 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
             let elastic = |s: WallSpring| format!("elastic, {:?} N/m and {:?} N s/m", s.stiffness, s.damping);
             let rigid = || format!("rigid, restitution {}", hole.restitution);
             let (gap, law) = (hole.gap, hole.law.spring().map_or_else(rigid, elastic));
+            let feels =
+                masses.get(hole.index).map_or_else(String::new, |mass| format!("; feels at least {mass:.4e} kg"));
             return format!(
-                "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; {law}, {rubs}"
+                "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; {law}, {rubs}{feels}"
             );
         };
         let mut gaps: Vec<f64> = flats.iter().map(|flat| flat.gap).collect();

@@ -60,8 +60,8 @@ fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
 }
 
-/// A note on a load that moves nothing: a blow after the end of the run, or a place without a degree
-/// of freedom.
+/// A note on a load that moves nothing: a blow after the end of the run, or a place without a
+/// degree of freedom.
 fn idle(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     let (number, end) = (index + 1, scene.duration);
     if load.at.is_blind() {
