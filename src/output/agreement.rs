@@ -100,7 +100,7 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
         let fate = fate(run, passes, error.is_nan() || error > AGREEMENT);
         // The largest force of springs is that of an instant, at rigid walls it is a mean.
         let reference = comparison.reference_run().filter(|_| !penalty);
-        let contacts = reference.and_then(|reference| other_contacts(case, run, reference));
+        let contacts = reference.and_then(|reference| other_contacts(run, reference));
         judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate, contacts });
     }
     judged
@@ -133,9 +133,9 @@ fn end_of_prediction(case: &Case, comparison: &Comparison) -> Option<String> {
 
 /// The contacts and the largest force of a run over its whole duration beside those of the
 /// reference, in words: a motion that is followed no further may still have the same of both.
-fn other_contacts(case: &Case, run: &Run, reference: &Run) -> Option<String> {
+fn other_contacts(run: &Run, reference: &Run) -> Option<String> {
     let differ = |a: f64, b: f64| (a - b).abs() > ALIKE * a.max(b);
-    let [own, wanted] = [run, reference].map(|run| contacts(case, run));
+    let [own, wanted] = [run, reference].map(contacts);
     let [strongest, asked] = [run, reference].map(largest_force);
     let alike = own.abs_diff(wanted) <= 1 || !differ(own as f64, wanted as f64);
     let as_strong = strongest.zip(asked).is_none_or(|(own, wanted)| !differ(own, wanted));

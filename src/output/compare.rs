@@ -6,12 +6,12 @@ use super::csv::{self, digits};
 use super::pictures::{FigureSet, Labelled};
 use super::results::Results;
 use super::run::{self, Picture};
-use super::site::Site;
 use super::summary::{Checks, Reasons};
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
 use crate::scheme::Method;
+use crate::statistics::ContactSite;
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row};
 use crate::study::difference::{error_length, largest, rows};
@@ -171,15 +171,16 @@ fn ran(row: &Row) -> Option<&Run> {
 /// `compare-walls.csv`: one row per method and wall or round support, for any number of them; the
 /// impulse of a round support is Σ|p|.
 fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
-    let columns: [csv::Column<'_, (String, &Run, Site<'_>)>; 5] = [
+    let columns: [csv::Column<'_, (String, &Run, ContactSite<'_>)>; 5] = [
         ("method", &|(method, ..)| method.clone()),
-        ("wall", &|(_, _, site)| site.name().to_owned()),
-        ("impulse_N_s", &|(_, run, site)| digits(site.impulse(run))),
-        ("contacts", &|(_, run, site)| site.contacts(run).map_or_else(String::new, |count| count.to_string())),
-        ("peak_force_N", &|(_, run, site)| digits(site.peak(run))),
+        ("wall", &|(_, _, site)| site.name.to_owned()),
+        ("impulse_N_s", &|(_, run, site)| digits(Some(run.statistics.impulse(site.wall)))),
+        ("contacts", &|(_, run, site)| run.statistics.contacts(site.wall).to_string()),
+        ("peak_force_N", &|(_, run, site)| digits(run.statistics.peak_force(run.trajectory.contacts(), site.wall))),
     ];
     let runs = comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), ran(row)?)));
-    let rows = runs.flat_map(|(method, run)| Site::all(case).map(move |site| (method.clone(), run, site)));
+    let rows =
+        runs.flat_map(|(method, run)| ContactSite::all(&case.scene).map(move |site| (method.clone(), run, site)));
     csv::records(&results.place("compare-walls.csv")?, &columns, rows)
 }
 /// Largest force of all walls and round supports in the window, N: of elastic ones at an instant,
@@ -197,5 +198,6 @@ fn work_rate(run: &Run) -> Option<f64> {
 
 /// Largest force of the contacts in the window at places without an impact, N.
 pub(super) fn peak(case: &Case, run: &Run) -> Option<f64> {
-    Site::all(case).filter_map(|site| site.peak(run)).reduce(f64::max)
+    let contacts = run.trajectory.contacts();
+    ContactSite::all(&case.scene).filter_map(|site| run.statistics.peak_force(contacts, site.wall)).reduce(f64::max)
 }

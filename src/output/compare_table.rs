@@ -2,11 +2,11 @@
 
 use super::cheapest::time;
 use super::compare::{largest_force, peak};
-use super::site::Site;
 use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
 use crate::scheme::Scheme;
+use crate::statistics::{ContactSite, PlaceKind};
 use crate::study::compare::{Comparison, Row};
 use crate::study::difference::largest;
 
@@ -32,7 +32,7 @@ pub fn overview(case: &Case, comparison: &Comparison) -> Table {
         };
         let taken = row.step_ns.map(|ns| time(1e-9 * ns * run.counters.steps as f64));
         let error = if row.method.scheme.is_exact() { "exact".into() } else { error(row) };
-        let mut line = vec![row.method.to_string(), error, contacts(case, run).to_string()];
+        let mut line = vec![row.method.to_string(), error, contacts(run).to_string()];
         line.extend([force(largest_force(run)), taken.unwrap_or_else(|| "-".into())]);
         if refuted {
             line.push(if is_refuted(row) { "REFUTED" } else { "kept" }.into());
@@ -63,8 +63,8 @@ fn error(row: &Row) -> String {
 }
 
 /// The contacts of a run at all walls and supports.
-pub(super) fn contacts(case: &Case, run: &Run) -> usize {
-    Site::all(case).filter_map(|site| site.contacts(run)).sum()
+pub(super) fn contacts(run: &Run) -> usize {
+    run.statistics.walls.iter().map(|wall| wall.contacts).sum()
 }
 
 /// A force in words, N.
@@ -111,24 +111,22 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
     quantity("largest force (N)", &|_, run| force(largest_force(run)));
     // Of rigid impacts, which have an impulse and no finite force, there is none.
     quantity("peak force (N)", &|_, run| force(peak(case, run)));
-    let all: Vec<Site<'_>> = Site::all(case).collect();
+    let all: Vec<ContactSite<'_>> = ContactSite::all(&case.scene).collect();
     if all.len() > MOST_WALLS {
         quantity("Σ|impulse| (N s)", &|_, run| {
-            format!("{:.3}", all.iter().filter_map(|site| site.impulse(run)).map(f64::abs).sum::<f64>())
+            format!("{:.3}", all.iter().map(|site| run.statistics.impulse(site.wall).abs()).sum::<f64>())
         });
-        quantity("contacts", &|_, run| contacts(case, run).to_string());
+        quantity("contacts", &|_, run| contacts(run).to_string());
     } else {
         for site in &all {
-            let (name, told): (String, fn(f64) -> String) = match site {
-                Site::Wall(_, name) => (format!("impulse {name} (N s)"), |p| format!("{p:+.3}")),
-                Site::Round(_, name) => (format!("Σ|impulse| {name} (N s)"), |p| format!("{p:.3}")),
+            let (name, told): (String, fn(f64) -> String) = match site.kind {
+                PlaceKind::Wall => (format!("impulse {} (N s)", site.name), |p| format!("{p:+.3}")),
+                PlaceKind::Support => (format!("Σ|impulse| {} (N s)", site.name), |p| format!("{p:.3}")),
             };
-            quantity(&name, &|_, run| site.impulse(run).map_or_else(dash, told));
+            quantity(&name, &|_, run| told(run.statistics.impulse(site.wall)));
         }
         for site in &all {
-            quantity(&format!("contacts {}", site.name()), &|_, run| {
-                site.contacts(run).map_or_else(dash, |count| count.to_string())
-            });
+            quantity(&format!("contacts {}", site.name), &|_, run| run.statistics.contacts(site.wall).to_string());
         }
     }
     for support in &case.scene.supports {
@@ -156,6 +154,6 @@ pub fn force_remark(case: &Case, comparison: &Comparison) -> Option<String> {
 /// The remark below the table, if one is needed.
 #[must_use]
 pub fn remark(case: &Case) -> Option<String> {
-    let count = Site::all(case).count();
+    let count = case.scene.walls.len();
     (count > MOST_WALLS).then(|| format!("impulses and contacts of all {count} walls; compare-walls.csv has each"))
 }

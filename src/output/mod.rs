@@ -107,7 +107,6 @@ pub mod sector_means;
 pub mod shape;
 #[cfg(feature = "xlsx")]
 mod sheets;
-mod site;
 mod spectra;
 pub mod stability;
 pub(crate) mod stable_steps;

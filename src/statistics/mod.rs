@@ -37,6 +37,7 @@ pub use distribution::Distribution;
 pub use episodes::EpisodeStatistics;
 pub use force::{ForceStatistics, Forces};
 pub use largest_force::LargestForce;
+pub(crate) use place::ContactSite;
 pub use place::{ContactPlace, PlaceKind};
 #[cfg(feature = "cli")]
 pub(crate) use recovered::{Pair, Recovered};
@@ -232,6 +233,19 @@ impl Statistics {
     /// where it is not known.
     pub(crate) fn impulse(&self, wall: usize) -> f64 {
         self.walls.get(wall).and_then(|wall| wall.force).map_or(0.0, |force| force.impulse_n_s)
+    }
+
+    /// Contacts with the wall number `wall` that began in the window.
+    pub(crate) fn contacts(&self, wall: usize) -> usize {
+        self.walls.get(wall).map_or(0, |wall| wall.contacts)
+    }
+
+    /// Largest force of those of all `contacts` with the wall number `wall` that reach into the
+    /// window, N; `None` where an impact is among them, whose force is not finite.
+    pub(crate) fn peak_force(&self, contacts: &[Contact], wall: usize) -> Option<f64> {
+        let reaches = |c: &&Contact| c.wall == wall && c.end.is_none_or(|end| end >= self.from_s);
+        let peaks: Option<Vec<f64>> = contacts.iter().filter(reaches).map(|c| c.peak_force).collect();
+        Summary::of(peaks?.into_iter()).max
     }
 }
 

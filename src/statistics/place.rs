@@ -31,6 +31,27 @@ impl ContactPlace {
     }
 }
 
+/// A wall of a scene as results name it: a flat one by itself, a round one as its support.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ContactSite<'a> {
+    /// Index among the walls of the scene.
+    pub wall: usize,
+    /// Name of the wall or the support.
+    pub name: &'a str,
+    /// Which of the two it is.
+    pub kind: PlaceKind,
+}
+
+impl<'a> ContactSite<'a> {
+    /// Every flat wall of `scene`, then every round support, in the scene's order.
+    pub fn all(scene: &'a Scene) -> impl Iterator<Item = Self> {
+        let flats = scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round());
+        let flats = flats.map(|(wall, flat)| Self { wall, name: &flat.name, kind: PlaceKind::Wall });
+        let rounds = scene.holes().map(|hole| Self { wall: hole.index, name: hole.name, kind: PlaceKind::Support });
+        flats.chain(rounds)
+    }
+}
+
 impl PlaceKind {
     /// Its name in files.
     #[must_use]

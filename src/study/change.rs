@@ -2,8 +2,8 @@
 
 use super::difference::{self, wall_speeds, worse};
 use crate::run::Run;
-use crate::scene::{Hole, Scene};
-use crate::statistics::{PlaceKind, Statistics, WallStatistics};
+use crate::scene::Scene;
+use crate::statistics::{ContactSite, PlaceKind, Statistics, WallStatistics};
 use crate::step::Contact;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -86,48 +86,44 @@ impl Change {
         let masses = scene.wall_masses();
         let window = statistics[1].to_s - from;
         let numbers = |index: usize| [run, against].map(|t| number(scene, t.contacts(), index, from));
-        let part = |s: &Statistics, index: usize, of: fn(&WallStatistics) -> f64| s.walls.get(index).map_or(0.0, of);
-        let [_, own] = statistics;
+        let of =
+            |index: usize, part: fn(&WallStatistics) -> f64| statistics.map(|s| s.walls.get(index).map_or(0.0, part));
+        let power = |index: usize| of(index, |w| w.impact_power_w);
+        // A rigid wall has a finite force in lasting contacts only.
+        let spring = |index: usize| scene.walls.get(index).and_then(|wall| wall.law.spring());
+        let force = |index: usize| of(index, |w| w.episode_peak_force_n.max.unwrap_or(0.0));
         // Largest value of any wall, taken from the motion compared with.
         let mut most = Largest::default();
-        for (index, wall) in scene.walls.iter().enumerate() {
-            most.impulse = most.impulse.max(own.impulse(index).abs());
+        for index in 0..scene.walls.len() {
+            most.impulse = most.impulse.max(statistics[1].impulse(index).abs());
             most.number = most.number.max(numbers(index)[1].unwrap_or(0.0));
-            if wall.is_round() {
-                continue;
-            }
-            most.power = most.power.max(part(own, index, |w| w.impact_power_w));
-            if !wall.law.is_rigid() {
-                most.force = most.force.max(part(own, index, |w| w.episode_peak_force_n.max.unwrap_or(0.0)));
+            most.power = most.power.max(power(index)[1]);
+            if spring(index).is_some() {
+                most.force = most.force.max(force(index)[1]);
             }
         }
-        let mut walls = Vec::new();
-        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()) {
-            let mass = masses.get(index).copied().unwrap_or(0.0);
-            let speed = speeds.get(index).copied().unwrap_or(0.0);
-            let impulses = statistics.map(|s| s.impulse(index));
+        let change = |site: ContactSite<'_>| {
+            let index = site.wall;
+            let [mass, speed] = [&masses, &speeds].map(|list| list.get(index).copied().unwrap_or(0.0));
             let contacts = match numbers(index) {
                 [Some(a), Some(b)] => Some(relative([a, b], most.number.max(1.0))),
                 _ => None,
             };
-            let of = |what: fn(&WallStatistics) -> f64| statistics.map(|s| part(s, index, what));
-            let [time, time_against] = of(|w| w.contact_time_ratio);
-            let peak_force = wall.law.spring().map_or(0.0, |spring| {
-                let least = most.force.max(speed * (spring.stiffness * mass).sqrt());
-                relative(of(|w| w.episode_peak_force_n.max.unwrap_or(0.0)), least)
-            });
-            walls.push(WallChange {
-                wall: wall.name.clone(),
-                kind: PlaceKind::Wall,
+            let [time, time_against] = of(index, |w| w.contact_time_ratio);
+            let peak_force = spring(index)
+                .map_or(0.0, |spring| relative(force(index), most.force.max(speed * (spring.stiffness * mass).sqrt())));
+            WallChange {
+                wall: site.name.to_owned(),
+                kind: site.kind,
                 index,
-                impulse: relative(impulses, most.impulse.max(mass * speed)),
+                impulse: relative(statistics.map(|s| s.impulse(index)), most.impulse.max(mass * speed)),
                 contacts,
-                impact_energy: relative(of(|w| w.impact_power_w), most.power.max(0.5 * mass * speed * speed / window)),
+                impact_energy: relative(power(index), most.power.max(0.5 * mass * speed * speed / window)),
                 contact_time: (time - time_against).abs(),
                 peak_force,
-            });
-        }
-        walls.extend(round_changes(scene, [run, against], statistics, &most, [&masses, &speeds]));
+            }
+        };
+        let walls = ContactSite::all(scene).map(change).collect();
         Self { displacement, walls }
     }
 
@@ -153,52 +149,12 @@ impl Change {
     }
 }
 
-/// The changes at the round walls of `scene`, whose walls feel `masses` (kg) and see these largest
-/// `speeds` (m/s).
-fn round_changes(
-    scene: &Scene,
-    runs: [&Trajectory; 2],
-    statistics: [&Statistics; 2],
-    most: &Largest,
-    [masses, speeds]: [&[f64]; 2],
-) -> Vec<WallChange> {
-    let (from, window) = (statistics[1].from_s, statistics[1].to_s - statistics[1].from_s);
-    let change = |round: Hole<'_>| {
-        let index = round.index;
-        let [mass, speed] = [masses, speeds].map(|list| list.get(index).copied().unwrap_or(0.0));
-        let energy = |speed: f64| 0.5 * mass * speed * speed;
-        let met = |run: &Trajectory| {
-            let here = run.contacts().iter().filter(|c| c.wall == index && c.start >= from);
-            here.map(|c| energy(c.approach_speed)).sum::<f64>() / window
-        };
-        let contacts = match runs.map(|run| number(scene, run.contacts(), index, from)) {
-            [Some(a), Some(b)] => Some(relative([a, b], most.number.max(1.0))),
-            _ => None,
-        };
-        let time = |s: &Statistics| {
-            let worn = s.wear.iter().find(|worn| worn.support == round.name);
-            worn.map_or(0.0, |worn| worn.contact_time_ratio)
-        };
-        WallChange {
-            wall: round.name.to_owned(),
-            kind: PlaceKind::Support,
-            index,
-            impulse: relative(statistics.map(|s| s.impulse(index)), most.impulse.max(mass * speed)),
-            contacts,
-            impact_energy: relative(runs.map(met), most.power.max(energy(speed) / window)),
-            contact_time: (time(statistics[0]) - time(statistics[1])).abs(),
-            peak_force: 0.0,
-        }
-    };
-    scene.holes().map(change).collect()
-}
-
 pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
     let difference = (a - b).abs();
     if difference == 0.0 { 0.0 } else { difference / b.abs().max(least) }
 }
 
-/// Largest values at any wall.
+/// Largest values at any wall or round support.
 #[derive(Debug, Default)]
 struct Largest {
     /// Impulse, N s.

@@ -131,7 +131,7 @@ pub struct WallTruncated {
     pub impulse_n_s: [f64; 2],
     /// Its change, defined as [`WallChange::impulse`](super::change::WallChange::impulse).
     pub impulse_change: f64,
-    /// Largest finite force in the window for statistics, N; `None` where contacts are impacts.
+    /// Largest force in the window for statistics, N; `None` where an impact is among the contacts.
     pub peak_force_n: [Option<f64>; 2],
     /// Largest impulse of one contact in that window, N s; `None` without contact.
     pub largest_impulse_n_s: [Option<f64>; 2],
@@ -149,23 +149,20 @@ pub struct WallTruncated {
 struct Felt {
     /// Impulse, N s: of a wall signed, of a round support Σ|p|.
     impulse: f64,
-    /// Largest finite force, N.
+    /// Largest force, N; `None` where an impact is among the contacts.
     peak: Option<f64>,
     /// Largest |impulse| of one contact, N s.
     largest: Option<f64>,
 }
 
 impl Felt {
-    /// Number `index` of the walls of `scene`.
-    fn of(run: &Run, scene: &Scene, index: usize) -> Self {
+    /// Number `index` of the walls of the run's scene.
+    fn of(run: &Run, index: usize) -> Self {
         let statistics = &run.statistics;
-        let peak = |wall: &crate::statistics::WallStatistics| wall.episode_peak_force_n.max;
-        let round = scene.walls.get(index).is_some_and(crate::scene::Wall::is_round);
-        let wall = statistics.walls.get(index);
         Self {
             impulse: statistics.impulse(index),
-            peak: wall.filter(|_| !round).and_then(peak),
-            largest: wall.and_then(|wall| wall.episode_impulse_n_s.max),
+            peak: statistics.peak_force(run.trajectory.contacts(), index),
+            largest: statistics.walls.get(index).and_then(|wall| wall.episode_impulse_n_s.max),
         }
     }
 }
@@ -236,7 +233,7 @@ impl Truncation {
         let scene = &cuts[1].scene;
         // Sliders come after all walls of a reduction, and are none of them.
         let count = cuts[1].walls.len();
-        let felt: Vec<[Felt; 2]> = (0..count).map(|index| runs.map(|run| Felt::of(run, scene, index))).collect();
+        let felt: Vec<[Felt; 2]> = (0..count).map(|index| runs.map(|run| Felt::of(run, index))).collect();
         let most = |part: fn(&Felt) -> Option<f64>| felt.iter().flatten().filter_map(part).fold(0.0, f64::max);
         let (most_force, most_impulse) = (most(|felt| felt.peak), most(|felt| felt.largest));
         let masses = cuts.map(|cut| cut.scene.wall_masses());

@@ -9,12 +9,13 @@ use crate::residual::{Finding, Refuted};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Stepper};
-use crate::statistics::{PlaceKind, Statistics};
+use crate::statistics::{ContactSite, PlaceKind, Statistics};
 use crate::study::change::Change;
 use crate::study::difference::error_length;
 use crate::study::exact::{Replay, replay, stride};
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
 use crate::time::TimeOptions;
+use crate::trajectory::Trajectory;
 use serde::Serialize;
 
 /// Cost of a verdict, in runs like the one it checks.
@@ -50,8 +51,8 @@ pub struct WallVerdict {
     pub impulse_n_s: [f64; 2],
     /// Contacts of the run and of its check in that window.
     pub contacts: [usize; 2],
-    /// Largest force of the run and of its check in that window, N; `None` where no force is
-    /// finite.
+    /// Largest force of the run and of its check in that window, N; `None` where an impact is among
+    /// the contacts, whose force is not finite.
     pub peak_force_n: [Option<f64>; 2],
 }
 
@@ -155,7 +156,7 @@ impl Verdict {
             length_m: error_length(scene, &again.trajectory),
             is_gap: scene.gap().is_some(),
             horizon_s,
-            walls: wall_verdicts(scene, [&run.statistics, &again.statistics]),
+            walls: wall_verdicts(scene, [pair.0, pair.1]),
             findings: again.findings,
         })
     }
@@ -174,26 +175,17 @@ impl Verdict {
     }
 }
 
-/// The verdicts of the walls that are not round, and then of the round supports, by the statistics
-/// of the run and of its check.
-fn wall_verdicts(scene: &Scene, both: [&Statistics; 2]) -> Vec<WallVerdict> {
-    let contacts = |index: usize| both.map(|s| s.walls.get(index).map_or(0, |wall| wall.contacts));
-    let flat = scene.walls.iter().enumerate().filter(|(index, wall)| !wall.is_round() && !scene.is_slider(*index));
-    let flat = flat.map(|(index, wall)| WallVerdict {
-        wall: wall.name.clone(),
-        kind: PlaceKind::Wall,
-        impulse_n_s: both.map(|s| s.impulse(index)),
-        contacts: contacts(index),
-        peak_force_n: both.map(|s| s.walls.get(index).and_then(|wall| wall.episode_peak_force_n.max)),
-    });
-    let round = scene.holes().map(|hole| WallVerdict {
-        wall: hole.name.to_owned(),
-        kind: PlaceKind::Support,
-        impulse_n_s: both.map(|s| s.impulse(hole.index)),
-        contacts: contacts(hole.index),
-        peak_force_n: [None, None],
-    });
-    flat.chain(round).collect()
+/// The verdicts of the walls and round supports, by the motions and the statistics of the run and
+/// of its check.
+fn wall_verdicts(scene: &Scene, both: [(&Trajectory, &Statistics); 2]) -> Vec<WallVerdict> {
+    let verdict = |site: ContactSite<'_>| WallVerdict {
+        wall: site.name.to_owned(),
+        kind: site.kind,
+        impulse_n_s: both.map(|(_, s)| s.impulse(site.wall)),
+        contacts: both.map(|(_, s)| s.contacts(site.wall)),
+        peak_force_n: both.map(|(run, s)| s.peak_force(run.contacts(), site.wall)),
+    };
+    ContactSite::all(scene).filter(|site| !scene.is_slider(site.wall)).map(verdict).collect()
 }
 
 /// Largest change of a value of the run to that of its check, as a share of the largest value of
