@@ -2,6 +2,7 @@
 
 use super::cheapest::time;
 use super::compare::{largest_force, peak};
+use super::realisations::in_column;
 use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
@@ -69,13 +70,13 @@ pub(super) fn contacts(run: &Run) -> usize {
 
 /// A force in words, N.
 pub(super) fn force(newtons: Option<f64>) -> String {
-    newtons.map_or_else(|| "-".to_owned(), |newtons| format!("{newtons:.2}"))
+    newtons.map_or_else(|| "-".to_owned(), |newtons| in_column(newtons, 2))
 }
 
 /// The work rate of a support in words, mW.
 fn work_rate(run: &Run, support: &str) -> String {
     let own = run.statistics.wear.iter().find(|wear| wear.support == support);
-    own.map_or_else(|| "-".to_owned(), |wear| format!("{:.4}", 1e3 * wear.work_rate_w))
+    own.map_or_else(|| "-".to_owned(), |wear| in_column(1e3 * wear.work_rate_w, 4))
 }
 
 /// All quantities, one column per method, since there are more quantities than methods.
@@ -106,7 +107,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
             if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }
         })
     });
-    quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
+    quantity("max |u| (mm)", &|_, run| in_column(1e3 * largest(run.trajectory.displacements()), 4));
     quantity("penetration (mm)", &|_, run| short(1e3 * run.residuals.penetration_m));
     quantity("largest force (N)", &|_, run| force(largest_force(run)));
     // Of rigid impacts, which have an impulse and no finite force, there is none.
@@ -114,16 +115,20 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
     let all: Vec<ContactSite<'_>> = ContactSite::all(&case.scene).collect();
     if all.len() > MOST_WALLS {
         quantity("Σ|impulse| (N s)", &|_, run| {
-            format!("{:.3}", all.iter().map(|site| run.statistics.impulse(site.wall).abs()).sum::<f64>())
+            in_column(all.iter().map(|site| run.statistics.impulse(site.wall).abs()).sum(), 3)
         });
         quantity("contacts", &|_, run| contacts(run).to_string());
     } else {
         for site in &all {
-            let (name, told): (String, fn(f64) -> String) = match site.kind {
-                PlaceKind::Wall => (format!("impulse {} (N s)", site.name), |p| format!("{p:+.3}")),
-                PlaceKind::Support => (format!("Σ|impulse| {} (N s)", site.name), |p| format!("{p:.3}")),
+            let (name, signed) = match site.kind {
+                PlaceKind::Wall => ("impulse", true),
+                PlaceKind::Support => ("Σ|impulse|", false),
             };
-            quantity(&name, &|_, run| told(run.statistics.impulse(site.wall)));
+            quantity(&format!("{name} {} (N s)", site.name), &|_, run| {
+                let impulse = run.statistics.impulse(site.wall);
+                let sign = if signed && impulse > 0.0 { "+" } else { "" };
+                format!("{sign}{}", in_column(impulse, 3))
+            });
         }
         for site in &all {
             quantity(&format!("contacts {}", site.name), &|_, run| run.statistics.contacts(site.wall).to_string());

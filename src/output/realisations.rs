@@ -186,6 +186,13 @@ pub(super) fn with_decimals(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}")
 }
 
+/// `x` with so many decimals, or with three digits and a power of ten where these would show fewer
+/// than two of its digits.
+pub(super) fn in_column(x: f64, decimals: usize) -> String {
+    let shown = x == 0.0 || x.abs() >= 10_f64.powi(1 - decimals as i32);
+    if shown { with_decimals(x, decimals) } else { format!("{x:.2e}") }
+}
+
 /// A half width below this share of the value is rounding: the value has no interval.
 const EXACT: f64 = 1e-12;
 
@@ -218,6 +225,12 @@ fn in_decimals(x: f64, half: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_small_number_of_a_column_is_not_shown_as_zero() {
+        assert_eq!([0.0, 12.34567, -0.001].map(|x| in_column(x, 4)), ["0.0000", "12.3457", "-0.0010"]);
+        assert_eq!([9.99e-4, -3.21e-7].map(|x| in_column(x, 4)), ["9.99e-4", "-3.21e-7"]);
+    }
 
     #[test]
     fn numbers_have_the_digits_of_their_interval() {

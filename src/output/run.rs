@@ -3,7 +3,7 @@
 use super::detail::Detail;
 use super::pictures::{FigureSet, Labelled};
 use super::places::Chosen;
-use super::realisations::with_decimals;
+use super::realisations::{in_column, with_decimals};
 use super::record::TABLES;
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
@@ -101,10 +101,10 @@ pub fn table(run: &Run) -> Option<Table> {
     let mut rows = Vec::new();
     for wall in busiest(run) {
         let force = |part: fn(&ForceStatistics) -> f64, digits| {
-            wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| with_decimals(part(force), digits))
+            wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| in_column(part(force), digits))
         };
         let largest = |part: fn(&LargestForce) -> f64| {
-            wall.force_largest.as_ref().map_or_else(|| "-".to_owned(), |largest| with_decimals(part(largest), 4))
+            wall.force_largest.as_ref().map_or_else(|| "-".to_owned(), |largest| in_column(part(largest), 4))
         };
         rows.push(vec![
             wall.wall.clone(),
@@ -115,7 +115,7 @@ pub fn table(run: &Run) -> Option<Table> {
             largest(|f| f.mean_n),
             largest(|f| f.at_s),
             with_decimals(100.0 * wall.contact_time_ratio, 3),
-            with_decimals(wall.impact_power_w, 6),
+            in_column(wall.impact_power_w, 6),
             with_decimals(wall.arrived_less_departed_power_w, 6),
         ]);
     }

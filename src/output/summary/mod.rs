@@ -15,7 +15,7 @@ use crate::qp::Backend;
 use crate::residual::{Finding, Residuals};
 use crate::run::Run;
 use crate::scheme::Counters;
-use crate::statistics::Statistics;
+use crate::statistics::{ContactSite, PlaceKind, Statistics};
 use crate::study::accuracy::Accuracy;
 use crate::study::realisations::Realisations;
 use crate::study::truncation::{ChosenModes, Truncation};
@@ -46,6 +46,7 @@ struct Summary<'a> {
     counters: Counters,
     wall_clock_s: f64,
     residuals: &'a Residuals,
+    /// Of a wall signed as its force, of a round support Σ|p|.
     impulse_whole_run_n_s: BTreeMap<&'a str, f64>,
     statistics: &'a Statistics,
     #[serde(skip_serializing_if = "no_supports")]
@@ -100,8 +101,15 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     let exact = run.scheme.is_exact();
     let study = checks.realisations;
     let mut impulse_whole_run_n_s = BTreeMap::new();
-    for wall in run.trajectory.walls().iter().filter(|wall| !run.trajectory.holes().contains(wall)) {
-        impulse_whole_run_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
+    for site in ContactSite::all(&case.scene) {
+        let impulse = match site.kind {
+            PlaceKind::Wall => run.trajectory.impulse(site.name)?,
+            PlaceKind::Support => {
+                let here = run.trajectory.contacts().iter().filter(|contact| contact.wall == site.wall);
+                here.map(|contact| contact.impulse.abs()).sum()
+            }
+        };
+        impulse_whole_run_n_s.insert(site.name, impulse);
     }
     let summary = Summary {
         program: program(),
