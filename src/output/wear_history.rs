@@ -204,14 +204,16 @@ pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
             let mean = limit.and_then(|limit| found.reaches(support, limit, value));
             let each = limit.map_or(Vec::new(), |limit| found.reaches_by_history(support, limit, value));
             let each: Vec<Option<f64>> = each.into_iter().map(in_years).collect();
-            let half_width = limit.and_then(|limit| found.half_width_of_time(support, limit, value));
             let later = limit.filter(|_| mean.is_none());
             let later = later.and_then(|limit| found.reaches_at_last_rate(support, limit, value));
-            own.insert(format!("limit_{depth}_years"), json!(in_years(mean)));
-            own.insert(format!("limit_{depth}_half_width_95_years"), json!(in_years(half_width)));
+            own.insert(format!("limit_{depth}_years"), json!(in_years(mean.map(|found| found.time_s))));
+            own.insert(
+                format!("limit_{depth}_half_width_95_years"),
+                json!(in_years(mean.and_then(|found| found.half_width_95_s))),
+            );
             own.insert(format!("limit_{depth}_years_of_histories"), json!(each));
-            own.insert(format!("limit_{depth}_years_at_last_rate"), json!(in_years(later.map(|(time, _)| time))));
-            let half_width = in_years(later.and_then(|(_, half_width)| half_width));
+            own.insert(format!("limit_{depth}_years_at_last_rate"), json!(in_years(later.map(|found| found.time_s))));
+            let half_width = in_years(later.and_then(|found| found.half_width_95_s));
             own.insert(format!("limit_{depth}_half_width_95_years_at_last_rate"), json!(half_width));
         };
         add("deepest", WearQuantity::DepthDeepest);

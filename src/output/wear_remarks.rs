@@ -5,7 +5,7 @@ use super::realisations::{self, with_interval};
 use crate::case::Case;
 use crate::error::amount;
 use crate::study::realisations::Groups;
-use crate::study::wear_history::{WearHistories, WearQuantity, WornThrough, YEAR, mean};
+use crate::study::wear_history::{TimeOfLimit, WearHistories, WearQuantity, WornThrough, YEAR, mean};
 use crate::wear::Growth;
 
 /// When the limit is reached, and what the figures mean, a sentence each.
@@ -26,7 +26,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
                 let later = later(found.reaches_at_last_rate(support, limit, value));
                 return format!("not within {} years{among}{later}", rounded(end));
             };
-            format!("after {} years{among}", in_years(time, found.half_width_of_time(support, limit, value)))
+            format!("after {} years{among}", in_years(time))
         };
         remarks.push(format!(
             "{place} {} where it is deepest, {} if all of its wear comes off one scar, {} if it comes off evenly all \
@@ -67,9 +67,9 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     remarks
 }
 
-/// A time, s, in years, with the half width of its 95 % interval, s.
-fn in_years(time: f64, half_width: Option<f64>) -> String {
-    half_width.map_or_else(|| amount(time / YEAR, 3), |half| with_interval(time / YEAR, Some(half / YEAR)))
+/// A time in years, with the half width of its 95 % interval.
+fn in_years(TimeOfLimit { time_s, half_width_95_s, .. }: TimeOfLimit) -> String {
+    half_width_95_s.map_or_else(|| amount(time_s / YEAR, 3), |half| with_interval(time_s / YEAR, Some(half / YEAR)))
 }
 
 /// When the limit (m) is reached at the last rates, in words; `None` where a mean or a history
@@ -77,8 +77,8 @@ fn in_years(time: f64, half_width: Option<f64>) -> String {
 fn all_later(found: &WearHistories, support: usize, limit: f64) -> Option<String> {
     let years = |value: WearQuantity| {
         let before = found.reaches_by_history(support, limit, value).into_iter().flatten().next();
-        let (time, half_width) = found.reaches_at_last_rate(support, limit, value)?;
-        before.is_none().then(|| in_years(time, half_width))
+        let time = found.reaches_at_last_rate(support, limit, value)?;
+        before.is_none().then(|| in_years(time))
     };
     Some(format!(
         "at the last rates after {} years where it is deepest, after {} if all of its wear comes off one scar, after \
@@ -90,10 +90,8 @@ fn all_later(found: &WearHistories, support: usize, limit: f64) -> Option<String
 }
 
 /// When a limit is reached after the end, s, in words that follow that it is not before.
-fn later(at_last_rate: Option<(f64, Option<f64>)>) -> String {
-    at_last_rate.map_or_else(String::new, |(time, half_width)| {
-        format!(", after {} at the last rate", in_years(time, half_width))
-    })
+fn later(at_last_rate: Option<TimeOfLimit>) -> String {
+    at_last_rate.map_or_else(String::new, |time| format!(", after {} at the last rate", in_years(time)))
 }
 
 /// When a limit is reached in the single histories, s, in words that follow when their mean does.
@@ -162,8 +160,9 @@ fn unworn(found: &WearHistories) -> Option<String> {
 fn worn_through(found: &WearHistories) -> Option<String> {
     let WornThrough { support, wall_m, depth_m, time_s } = found.worn_through.as_ref()?;
     let own = found.supports.iter().position(|name| name == support)?;
-    let half_width = found.half_width_of_time(own, *depth_m, WearQuantity::DepthDeepest);
-    let (depth, years) = (amount(1e3 * depth_m, 3), in_years(*time_s, half_width));
+    let half_width_95_s =
+        found.reaches(own, *depth_m, WearQuantity::DepthDeepest).and_then(|time| time.half_width_95_s);
+    let (depth, years) = (amount(1e3 * depth_m, 3), in_years(TimeOfLimit { time_s: *time_s, half_width_95_s }));
     let count = found.points.first().map_or(0, |point| point.histories.len());
     let over = if count == 1 { String::new() } else { format!(" over the {count} histories") };
     Some(match wall_m {
@@ -240,37 +239,33 @@ const ONE_SIDED: f64 = 3.0;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Cautioned;
-    use crate::study::wear_history::{WearPoint, WearState};
+    use crate::study::wear_history::{Accrual, WearPoint, WearingSupport};
+    use crate::wear::{Archard, Bearing, Scar, WearWork};
+    use std::f64::consts::TAU;
 
-    /// Histories whose depths grow by `rates` (m a year), at 0, 10 and 20 years.
+    /// Histories whose depths all round grow by `rates` (m a year), at 0, 10 and 20 years; of one
+    /// history the largest rates are 1.1 times as large.
     fn histories(rates: &[f64]) -> WearHistories {
-        let state = |depth: f64| WearState {
-            gap_m: 1e-3,
-            shift_m: [0.0; 2],
-            work_j: 1.0,
-            work_rate_w: 1.0,
-            depth_deepest_m: depth,
-            depth_all_round_m: depth,
-            depth_one_scar_m: depth,
+        let scar = Scar { width: 0.025, radius: 0.01, bearing: Bearing::Hole { gap: 1e-3 } };
+        let law = Archard { coefficient: Some(1e-14), support_coefficient: None, service: 1.0, scar: Some(scar) };
+        let support =
+            WearingSupport { name: "plate".to_owned(), gaps: vec![1e-3], growth: Growth::Kept, law, wall: None };
+        // The work that takes off 1 m all round.
+        let work_of = TAU * scar.radius * scar.width / 1e-14;
+        let work = |depth: f64| {
+            let work = work_of * depth;
+            vec![WearWork { total: work, sectors: vec![work], walls: vec![work] }]
         };
-        let point = |years: f64| WearPoint {
-            time_s: years * YEAR,
-            histories: rates.iter().map(|rate| vec![state(rate * years)]).collect(),
-            largest: rates.iter().take(usize::from(rates.len() == 1)).map(|rate| state(1.1 * rate * years)).collect(),
-            depths_m: rates.iter().map(|rate| vec![vec![rate * years]]).collect(),
+        let accrual = |time: f64| Accrual {
+            found: rates.iter().map(|rate| work(rate * time)).collect(),
+            largest: rates.iter().take(usize::from(rates.len() == 1)).map(|rate| work(1.1 * rate * time)).collect(),
         };
+        let supports = [support];
+        let point = |years: f64| WearPoint::new(&supports, years * YEAR, accrual(years), accrual(1.0 / YEAR));
         let points = [0.0, 10.0, 20.0].map(point).to_vec();
-        WearHistories {
-            supports: vec!["plate".to_owned()],
-            points,
-            depths_at_end_m: Vec::new(),
-            largest_depths_at_end_m: Vec::new(),
-            worn_through: None,
-            windows: 6,
-            refuted: Vec::new(),
-            cautioned: Cautioned::default(),
-        }
+        let mut found = WearHistories::none(&supports);
+        found.points = points;
+        found
     }
 
     #[test]
@@ -280,32 +275,33 @@ mod tests {
         // The mean reaches 0.12 mm after 8 years, the histories after 12 and 6: 9 ± t·s/√2 of one
         // degree of freedom is 38 years.
         let each = found.reaches_by_history(0, 1.2e-4, depth);
-        let mean = found.reaches(0, 1.2e-4, depth).unwrap();
-        assert_eq!(
-            (in_years(mean, found.half_width_of_time(0, 1.2e-4, depth)), among(&each, depth)),
-            ("8 ± 38".to_owned(), " (its 2 histories after 6 to 12)".to_owned())
-        );
+        let mean = |quantity| in_years(found.reaches(0, 1.2e-4, quantity).unwrap());
+        assert_eq!((&*mean(depth), &*among(&each, depth)), ("8 ± 38", " (its 2 histories after 6 to 12)"));
         // Of the deepest depth, here of one part, its half width then, 12.706 times 0.04 mm, over
         // the mean rate of 0.015 mm a year.
-        assert_eq!(in_years(mean, found.half_width_of_time(0, 1.2e-4, deepest)), "8 ± 34");
+        assert_eq!(mean(deepest), "8 ± 34");
         assert!(among(&each, deepest).contains("each by its own deepest part after 6 to 12"));
         // 0.6 mm: after 60 and 30 years at those rates; by the mean rate after 40, with 12.706
         // times 0.2 mm over it.
-        let (time, half_width) = found.reaches_at_last_rate(0, 6e-4, depth).unwrap();
-        assert!((time / YEAR - 45.0).abs() < 1e-9 && (half_width.unwrap() / YEAR - 15.0 * 12.706_204_736).abs() < 1e-6);
-        let (time, half_width) = found.reaches_at_last_rate(0, 6e-4, deepest).unwrap();
-        let wanted = 12.706_204_736 * 0.2 / 0.015;
-        assert!((time / YEAR - 40.0).abs() < 1e-9 && (half_width.unwrap() / YEAR - wanted).abs() < 1e-6);
+        for (quantity, years, half_width) in
+            [(depth, 45.0, 15.0 * 12.706_204_736), (deepest, 40.0, 12.706_204_736 * 0.2 / 0.015)]
+        {
+            let later = found.reaches_at_last_rate(0, 6e-4, quantity).unwrap();
+            assert!((later.time_s / YEAR - years).abs() < 1e-9, "{later:?}");
+            // The slope is a difference, with some digits less.
+            assert!((later.half_width_95_s.unwrap() / YEAR / half_width - 1.0).abs() < 1e-8, "{later:?}");
+        }
         assert_eq!(later(found.reaches_at_last_rate(0, 6e-4, deepest)), ", after 40 ± 169 at the last rate");
-        let all = all_later(&found, 0, 6e-4).unwrap();
-        assert!(all.starts_with("at the last rates after 40 ± 169 years where it is deepest, after "), "{all}");
-        assert!(all.ends_with("after 45 ± 191 if it comes off evenly all round"), "{all}");
+        // At a hundredth of the rates not even one scar has the limit by then.
+        let all = all_later(&histories(&[1e-7, 2e-7]), 0, 6e-4).unwrap();
+        assert!(all.starts_with("at the last rates after 4000 ± 16942 years where it is deepest, after "), "{all}");
+        assert!(all.ends_with("after 4500 ± 19059 if it comes off evenly all round"), "{all}");
         assert_eq!(all_later(&found, 0, 1.2e-4), None, "histories reach it before");
         // Of one history whose windows leave 10 % open: after 12 years, and at 1.1 times the rate
         // after 12/1.1.
         let one = histories(&[1e-5]);
         for quantity in [depth, deepest] {
-            let half_width = one.half_width_of_time(0, 1.2e-4, quantity).unwrap() / YEAR;
+            let half_width = one.reaches(0, 1.2e-4, quantity).unwrap().half_width_95_s.unwrap() / YEAR;
             assert!((half_width - (12.0 - 12.0 / 1.1)).abs() < 1e-9, "{half_width}");
             let (depth_then, half_width) = super::mean(&one.points[1], 0, quantity);
             assert!((depth_then - 1e-4).abs() < 1e-15 && (half_width.unwrap() - 1e-5).abs() < 1e-15);

@@ -66,6 +66,12 @@ impl WearWork {
         self.with(first, second, |work, first, second| work + time * (second - first).abs())
     }
 
+    /// The straight way from here to `other`, at the share `share` of it.
+    #[must_use]
+    pub(crate) fn towards(&self, other: &Self, share: f64) -> Self {
+        self.with(self, other, |_, from, to| from + share * (to - from))
+    }
+
     /// What `of` makes of the work and two rates, of all and of each part.
     fn with(&self, first: &Self, second: &Self, of: impl Fn(f64, f64, f64) -> f64) -> Self {
         let all = |work: &[f64], first: &[f64], second: &[f64]| {

@@ -1,7 +1,8 @@
 //! Histories of wear: the steps over the years.
 
 use signorini::case::{Case, CaseFile};
-use signorini::study::wear_history::{WearHistories, WearPlan};
+use signorini::study::wear_history::{WearHistories, WearPlan, WearQuantity, WearingSupport};
+use signorini::wear::{Archard, Growth};
 use signorini::{Error, Method, Options, Result, Scene, Scheme};
 
 const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
@@ -26,7 +27,11 @@ fn sliding() -> Case {
 /// Histories in which each window begins at the hole, with a speed of its gap to the power `power`
 /// times 20/s, and without loads.
 fn follow(power: i32, service: f64) -> Result<WearHistories> {
-    let (case, supports) = (sliding(), sliding().wearing_supports().unwrap());
+    follow_supports(power, service, sliding().wearing_supports().unwrap())
+}
+
+fn follow_supports(power: i32, service: f64, supports: Vec<WearingSupport>) -> Result<WearHistories> {
+    let case = sliding();
     let scene = |number: u64, openings: &[_]| {
         let scene = case.worn(number, &supports, openings)?;
         let gap = scene.holes().next().map_or(0.0, |hole| hole.gap);
@@ -53,6 +58,47 @@ fn no_step_makes_a_gap_more_than_half_as_large_again_however_long_the_service() 
     assert!(gaps.len() > 8 && *gaps.last().unwrap() > 0.05, "{gaps:?}");
     // The second rate of a step is the smaller one.
     assert!(gaps.windows(2).all(|pair| pair[0] < pair[1] && pair[1] <= 1.5 * pair[0]), "{gaps:?}");
+}
+
+/// Where the gap stays, so that the work rate is constant, a scar of the depth d in the hole has the
+/// volume k W t. Its cross-section is that of the tube outside the hole, here by quadrature in polar
+/// coordinates about the centre of the tube. The year at which it is d deep does not depend on the
+/// years of the study, which has one step.
+#[test]
+fn the_year_of_a_limit_follows_from_the_geometry_of_the_scar_whatever_the_years() {
+    let mut supports = sliding().wearing_supports().unwrap();
+    let (k, depth) = (1e-13, 0.4e-3);
+    supports[0].growth = Growth::Kept;
+    supports[0].law = Archard { coefficient: Some(k), ..supports[0].law };
+    let rate = follow(0, 1.0).unwrap().points[0].histories[0][0].work_rate_w;
+    let (radius, gap, width) = (9.525e-3, 5e-3, 25e-3);
+    let (hole, centre, parts) = (radius + gap, gap + depth, 400_000);
+    let outside = |angle: f64| {
+        let reach = (hole * hole - (centre * angle.sin()).powi(2)).sqrt() - centre * angle.cos();
+        0.5 * (radius * radius - reach * reach).max(0.0)
+    };
+    let step = std::f64::consts::PI / f64::from(parts);
+    let area: f64 = (0..parts).map(|part| 2.0 * step * outside((f64::from(part) + 0.5) * step)).sum();
+    let wanted = area * width / (k * rate);
+    for share in [0.3, 1.7, 5.0] {
+        let found = follow_supports(0, share * wanted, supports.clone()).unwrap();
+        assert_eq!(found.windows, 3, "two of a step and that of the end");
+        let scar = WearQuantity::DepthOneScar;
+        let [within, later] = [found.reaches(0, depth, scar), found.reaches_at_last_rate(0, depth, scar)];
+        assert_eq!([within, later].map(|time| time.is_some()), [share > 1.0, share < 1.0]);
+        let time = within.or(later).unwrap();
+        // The error of the quadrature.
+        assert!((time.time_s / wanted - 1.0).abs() < 1e-7, "{share}: {time:?}, {wanted}");
+        // Points between the windows let straight lines follow the depth.
+        let depths = |point: &signorini::study::wear_history::WearPoint| point.histories[0][0].depth_one_scar_m;
+        let last = depths(found.points.last().unwrap());
+        for pair in found.points.windows(2) {
+            let middle = 0.5 * (pair[0].time_s + pair[1].time_s);
+            let straight = 0.5 * (depths(&pair[0]) + depths(&pair[1]));
+            let then = found.reaches(0, straight, scar).unwrap().time_s;
+            assert!((middle - then).abs() * (last / found.points.last().unwrap().time_s) < 0.05 * last);
+        }
+    }
 }
 
 /// W grows like γ² where the speed grows like the gap: it is infinite after a time, which no

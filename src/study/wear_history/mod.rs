@@ -29,17 +29,23 @@
 //! gap. Under random loads several histories are followed side by side, each window with seeds of
 //! its own, so that the scatter of depths between histories is that of what was not averaged out.
 
+mod accrual;
+mod course;
 mod state;
 mod support;
 mod window;
 
-pub use state::{WearHistories, WearPoint, WearQuantity, WearState, WornThrough, mean};
+pub(crate) use accrual::Accrual;
+use accrual::Works;
+use course::reached_from;
+use state::depths;
+pub use state::{TimeOfLimit, WearHistories, WearPoint, WearQuantity, WearState, WornThrough, mean};
 pub use support::WearingSupport;
 pub use window::WearWindow;
 
 use super::realisations::{Deepest, Realisation, mean_of, realisations};
 use crate::error::{Error, Result};
-use crate::run::{Cautioned, Options};
+use crate::run::Options;
 use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::wear::{Opening, WearWork};
@@ -58,9 +64,6 @@ const MOST_GROWTH: f64 = 0.5;
 
 /// Largest difference of Heun's and Euler's gap, as a share of the gap.
 const TOLERANCE: f64 = 0.005;
-
-/// The time at which a wall is worn through is known to the step over two to this power.
-const HALVINGS: usize = 50;
 
 /// The shortest step that halving leaves, as a share of the longest; of gaps that are closed, whose
 /// growth is no share of them, as a share of the time in service.
@@ -87,17 +90,6 @@ pub struct WearPlan<'a> {
     pub service: f64,
 }
 
-/// The work at each support in each history, J; as rates, W.
-type Works = Vec<Vec<WearWork>>;
-
-/// The work rates in a window of each history, W.
-struct Rates {
-    /// As found.
-    found: Works,
-    /// Of a single history if each were larger by its half width; none of several.
-    largest: Works,
-}
-
 impl WearPlan<'_> {
     /// Follows the histories. The windows that were `kept` by an earlier call, numbers 1, 2, … in
     /// order, are not run again where these histories have the same supports in them: all of those
@@ -116,31 +108,24 @@ impl WearPlan<'_> {
         progress: &mut dyn FnMut(f64),
     ) -> Result<WearHistories> {
         self.check()?;
-        let mut found = WearHistories {
-            supports: self.supports.iter().map(|support| support.name.clone()).collect(),
-            points: Vec::new(),
-            worn_through: None,
-            depths_at_end_m: Vec::new(),
-            largest_depths_at_end_m: Vec::new(),
-            windows: 0,
-            refuted: Vec::new(),
-            cautioned: Cautioned::default(),
-        };
+        let mut found = WearHistories::none(self.supports);
         let none = |support: &WearingSupport| WearWork::none(self.options.time.sectors, support.gaps.len());
         let mut work: Works = vec![self.supports.iter().map(none).collect(); self.histories];
         let mut largest = if self.histories == 1 { work.clone() } else { Works::new() };
         let (mut time, mut step, mut first) = (0.0, self.service, None);
         loop {
             let rates = self.rates(&work, &mut found, kept, keep)?;
-            let depths_m: Vec<Vec<Vec<f64>>> = work.iter().map(|history| self.depths(history)).collect();
-            let (histories, largest_states) = (self.states(&work, &rates.found), self.states(&largest, &rates.largest));
+            let accrued = Accrual { found: work.clone(), largest: largest.clone() };
+            let point = WearPoint::new(self.supports, time, accrued, rates.clone());
             let last = time >= self.service || found.worn_through.is_some();
             if last {
-                found.depths_at_end_m.clone_from(&depths_m);
+                found.depths_at_end_m.clone_from(&point.depths_m);
             }
-            found.points.push(WearPoint { time_s: time, histories, largest: largest_states.concat(), depths_m });
+            found.points.push(point);
             if last {
-                found.largest_depths_at_end_m = largest.iter().flat_map(|history| self.depths(history)).collect();
+                let all = largest.iter().flat_map(|history| depths(self.supports, history));
+                found.largest_depths_at_end_m = all.collect();
+                found.add_points_between();
                 return Ok(found);
             }
             if found.points.len() > MOST_STEPS {
@@ -187,12 +172,7 @@ impl WearPlan<'_> {
         if !is_worn_through(step) {
             return step;
         }
-        let (mut before, mut after) = (0.0, step);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (before + after);
-            *(if is_worn_through(middle) { &mut after } else { &mut before }) = middle;
-        }
-        after
+        reached_from([0.0, step], is_worn_through)
     }
 
     /// The error of a service of which so many seconds take all steps.
@@ -228,7 +208,7 @@ impl WearPlan<'_> {
         found: &mut WearHistories,
         kept: &[WearWindow],
         keep: &mut dyn FnMut(&WearWindow) -> Result<()>,
-    ) -> Result<Rates> {
+    ) -> Result<Accrual> {
         let (first, last) = (found.windows + 1, found.windows + self.histories as u64);
         let openings: Vec<Vec<Opening>> = work.iter().map(|history| self.openings(history)).collect();
         let there = kept.iter().skip(found.windows as usize).zip(&openings);
@@ -250,27 +230,12 @@ impl WearPlan<'_> {
         windows.iter().for_each(|window| found.cautioned.add(window.number, window.caution.clone()));
         let single = if self.histories == 1 { &windows[..] } else { &[] };
         let largest = single.iter().map(WearWindow::largest_rates).collect();
-        Ok(Rates { largest, found: windows.into_iter().map(|window| window.rates).collect() })
+        Ok(Accrual { largest, found: windows.into_iter().map(|window| window.rates).collect() })
     }
 
     /// What the work (J) of a history has made of each support.
     fn openings(&self, history: &[WearWork]) -> Vec<Opening> {
         self.supports.iter().zip(history).map(|(support, work)| support.opening(work)).collect()
-    }
-
-    /// The depths that the work (J) of a history has worn off the tube at each support, m.
-    fn depths(&self, history: &[WearWork]) -> Vec<Vec<f64>> {
-        self.supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
-    }
-
-    /// The state of each support in each history after the work `work` (J) at the rates `rates`
-    /// (W).
-    fn states(&self, work: &Works, rates: &Works) -> Vec<Vec<WearState>> {
-        let states = |(work, rates): (&Vec<WearWork>, &Vec<WearWork>)| {
-            let all = self.supports.iter().zip(work.iter().zip(rates));
-            all.map(|(support, (work, rate))| support.state(work, rate.total)).collect()
-        };
-        work.iter().zip(rates).map(states).collect()
     }
 
     /// Adds to the work of a single history, `largest`, the estimated error of a step of `step` (s)

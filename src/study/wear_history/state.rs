@@ -1,8 +1,11 @@
 //! What histories of wear found.
 
 use super::super::realisations::{Deepest, mean_of};
+use super::accrual::{Accrual, Works};
+use super::support::WearingSupport;
 use crate::residual::Finding;
 use crate::run::Cautioned;
+use crate::wear::WearWork;
 use serde::Serialize;
 
 /// A support at one time of a history.
@@ -76,12 +79,40 @@ pub struct WearPoint {
     /// support, or at each flat, m; none of a tube that does not wear.
     #[serde(skip)]
     pub depths_m: Vec<Vec<Vec<f64>>>,
+    /// The work so far.
+    #[serde(skip)]
+    pub(super) work: Accrual,
+    /// The rates at which it grows.
+    #[serde(skip)]
+    pub(super) rates: Accrual,
 }
 
 impl WearPoint {
-    /// The state of a history at a support, both by number.
-    fn state(&self, history: usize, support: usize) -> Option<&WearState> {
-        self.histories.get(history)?.get(support)
+    /// The point at `time_s` (s) of the `supports`, after the work `work` (J) at the rates `rates`
+    /// (W).
+    pub(crate) fn new(supports: &[WearingSupport], time_s: f64, work: Accrual, rates: Accrual) -> Self {
+        let states = |work: &Works, rates: &Works| -> Vec<Vec<WearState>> {
+            let history = |(work, rates): (&Vec<WearWork>, &Vec<WearWork>)| {
+                let all = supports.iter().zip(work.iter().zip(rates));
+                all.map(|(support, (work, rate))| support.state(work, rate.total)).collect()
+            };
+            work.iter().zip(rates).map(history).collect()
+        };
+        Self {
+            time_s,
+            histories: states(&work.found, &rates.found),
+            largest: states(&work.largest, &rates.largest).concat(),
+            depths_m: work.found.iter().map(|history| depths(supports, history)).collect(),
+            work,
+            rates,
+        }
+    }
+
+    /// The point at the share `share` of the way to `other`, over which work and rates change
+    /// evenly.
+    pub(super) fn towards(&self, other: &Self, share: f64, supports: &[WearingSupport]) -> Self {
+        let time = self.time_s + share * (other.time_s - self.time_s);
+        Self::new(supports, time, self.work.towards(&other.work, share), self.rates.towards(&other.rates, share))
     }
 
     /// The depths of all parts of a support, by number, in each history, m.
@@ -109,13 +140,34 @@ pub struct WornThrough {
     pub time_s: f64,
 }
 
+/// When a limit is reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct TimeOfLimit {
+    /// Time in service, s.
+    pub time_s: f64,
+    /// Half width of its 95 % interval, s: of the histories where each reaches the limit, of a
+    /// single one by the half widths of the work rates of its windows. Of the deepest depth of
+    /// several that of the depth then, over the rate at which it grows.
+    pub half_width_95_s: Option<f64>,
+}
+
+/// The depths that the work (J) of a history has worn off the tube at each support, m.
+pub(super) fn depths(supports: &[WearingSupport], history: &[WearWork]) -> Vec<Vec<f64>> {
+    supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
+}
+
 /// Histories of wear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WearHistories {
     /// The names of the supports.
     pub supports: Vec<String>,
-    /// From the start to the end.
+    /// The supports.
+    #[serde(skip)]
+    pub(super) wearing: Vec<WearingSupport>,
+    /// From the start to the end: at each window, and between two where a depth does not grow
+    /// straight.
     pub points: Vec<WearPoint>,
     /// Where the histories end before the time in service.
     pub worn_through: Option<WornThrough>,
@@ -158,6 +210,21 @@ fn within(mean: f64, half_width: Option<f64>, largest: Option<f64>) -> (f64, Opt
 }
 
 impl WearHistories {
+    /// Histories of `supports` that have not begun.
+    pub(crate) fn none(supports: &[WearingSupport]) -> Self {
+        Self {
+            supports: supports.iter().map(|support| support.name.clone()).collect(),
+            wearing: supports.to_vec(),
+            points: Vec::new(),
+            worn_through: None,
+            depths_at_end_m: Vec::new(),
+            largest_depths_at_end_m: Vec::new(),
+            windows: 0,
+            refuted: Vec::new(),
+            cautioned: Cautioned::default(),
+        }
+    }
+
     /// The mean over the histories of the depth at their end in each sector or at each flat of a
     /// support, m, and the half width of its 95 % interval, as of [`mean`].
     #[must_use]
@@ -171,108 +238,5 @@ impl WearHistories {
             within(mean, half_width, largest.copied())
         };
         (0..parts).map(part).collect()
-    }
-
-    /// The time in service at which the mean over the histories of a quantity of a support, which
-    /// grows, reaches `limit`, s: straight between the points; `None` where it does not.
-    #[must_use]
-    pub fn reaches(&self, support: usize, limit: f64, quantity: WearQuantity) -> Option<f64> {
-        self.crossing(limit, |point| Some(mean(point, support, quantity).0))
-    }
-
-    /// The half width of the 95 % interval of that time, s: of the histories where each reaches the
-    /// limit, of a single one by the half widths of the work rates of its windows. Of the deepest
-    /// depth of several that of the depth then, over the rate at which it grows.
-    #[must_use]
-    pub fn half_width_of_time(&self, support: usize, limit: f64, quantity: WearQuantity) -> Option<f64> {
-        let time = self.reaches(support, limit, quantity)?;
-        if self.is_deepest_of_several(quantity) {
-            let along = self.points.windows(2).find(|pair| pair[1].time_s >= time)?;
-            return Straight::between(along, support, quantity)?.reaches(limit).1;
-        }
-        let each: Option<Vec<f64>> = self.reaches_by_history(support, limit, quantity).into_iter().collect();
-        let of_windows = || self.crossing(limit, |point| point.largest(support).map(|state| quantity.of(state)));
-        each.and_then(|times| mean_of(&times).2).or_else(|| Some(time - of_windows()?))
-    }
-
-    /// The time in service at which each history alone reaches it, s.
-    #[must_use]
-    pub fn reaches_by_history(&self, support: usize, limit: f64, quantity: WearQuantity) -> Vec<Option<f64>> {
-        let histories = self.points.first().map_or(0, |point| point.histories.len());
-        let own = |history: usize| {
-            self.crossing(limit, |point| point.state(history, support).map(|state| quantity.of(state)))
-        };
-        (0..histories).map(own).collect()
-    }
-
-    /// The time in service at which the mean over the histories reaches `limit` after their end, if
-    /// all go on to grow as between the last two points, s, and the half width of its 95 %
-    /// interval; `None` where one has reached it, or does not grow.
-    #[must_use]
-    pub fn reaches_at_last_rate(
-        &self,
-        support: usize,
-        limit: f64,
-        quantity: WearQuantity,
-    ) -> Option<(f64, Option<f64>)> {
-        let ends @ [before, last] = self.points.last_chunk()?;
-        if self.is_deepest_of_several(quantity) {
-            let along = Straight::between(ends, support, quantity)?;
-            return (along.rate() > 0.0 && along.last.1 < limit).then(|| along.reaches(limit));
-        }
-        let own = |history: usize| {
-            let [start, end] = [before, last].map(|point| point.state(history, support));
-            let (start, end) = (quantity.of(start?), quantity.of(end?));
-            let rate = (end - start) / (last.time_s - before.time_s);
-            let time = last.time_s + (limit - end) / rate;
-            (rate > 0.0 && end < limit).then_some(time)
-        };
-        let times: Vec<f64> = (0..last.histories.len()).map(own).collect::<Option<_>>()?;
-        let (time, _, half_width) = mean_of(&times);
-        (!times.is_empty()).then_some((time, half_width))
-    }
-
-    /// True for the deepest depth of several histories, of which none alone has an estimate.
-    fn is_deepest_of_several(&self, quantity: WearQuantity) -> bool {
-        quantity == WearQuantity::DepthDeepest && self.points.first().is_some_and(|point| point.histories.len() > 1)
-    }
-
-    /// The time at which a value that grows along the points reaches `limit`, s.
-    fn crossing(&self, limit: f64, value: impl Fn(&WearPoint) -> Option<f64>) -> Option<f64> {
-        let along: Vec<(f64, f64)> =
-            self.points.iter().filter_map(|point| Some((point.time_s, value(point)?))).collect();
-        along.windows(2).find(|pair| pair[1].1 >= limit).map(|pair| {
-            let [(t0, d0), (t1, d1)] = [pair[0], pair[1]];
-            t0 + (t1 - t0) * ((limit - d0) / (d1 - d0)).clamp(0.0, 1.0)
-        })
-    }
-}
-
-/// A mean and its half width that go straight on through two points of time.
-struct Straight {
-    first: (f64, f64, Option<f64>),
-    last: (f64, f64, Option<f64>),
-}
-
-impl Straight {
-    fn between(points: &[WearPoint], support: usize, quantity: WearQuantity) -> Option<Self> {
-        let at = |point: &WearPoint| {
-            let (mean, half_width) = mean(point, support, quantity);
-            (point.time_s, mean, half_width)
-        };
-        let [first, last] = points else { return None };
-        Some(Self { first: at(first), last: at(last) })
-    }
-
-    fn rate(&self) -> f64 {
-        (self.last.1 - self.first.1) / (self.last.0 - self.first.0)
-    }
-
-    /// The time at which the mean is `limit`, and the half width of that time.
-    fn reaches(&self, limit: f64) -> (f64, Option<f64>) {
-        let share = (limit - self.first.1) / (self.last.1 - self.first.1);
-        let half_width = self.first.2.zip(self.last.2).map(|(first, last)| first + share * (last - first));
-        let half_width = half_width.map(|half_width| (half_width / self.rate()).abs());
-        (self.first.0 + share * (self.last.0 - self.first.0), half_width.filter(|half_width| half_width.is_finite()))
     }
 }
