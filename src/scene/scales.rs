@@ -111,7 +111,7 @@ impl Scene {
     }
 
     /// The mass that moves along each of `rows`, 1/(g M⁻¹ gᵀ), kg; infinite where nothing does.
-    pub(in crate::scene) fn masses_along<'a>(&self, rows: impl Iterator<Item = &'a Row>) -> Vec<f64> {
+    pub(crate) fn masses_along<'a>(&self, rows: impl Iterator<Item = &'a Row>) -> Vec<f64> {
         match &self.system {
             System::Oscillator(o) => {
                 let weight = |row: &Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();

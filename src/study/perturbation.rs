@@ -1,8 +1,10 @@
 //! The growth of a small change of the start, measured on perturbed runs: a lower bound, for scenes
 //! without a closed form.
 //!
-//! The initial velocities are changed by pseudo-random amounts, at most δ times the largest speed,
-//! in a few directions. At the rows, the displacement difference wδ to the unperturbed run is taken
+//! The initial velocities are changed by pseudo-random amounts in a few directions: each by at most
+//! δ times the largest speed for a coordinate of the least mass μ that a wall or probe feels, and
+//! for one of the mass m by √(μ/m) of that, so that the change is the same in any units, also of
+//! coordinates that are no displacements, as those of modes. At the rows, the displacement difference wδ to the unperturbed run is taken
 //! at every wall and probe. The growth is the largest √((wδ/gap)² + (ẇδ/speed)²) over its value at
 //! the start, at the same places. ẇδ is the slope of wδ between two rows, the smallest of those
 //! next to a row: at an impact wδ itself jumps, to −e wδ, and between the impacts of the two runs
@@ -22,7 +24,7 @@ use super::difference::{error_length, largest, worse};
 use super::exact::limit_events;
 use super::growth::{Growth, Source};
 use crate::error::Result;
-use crate::scene::{Probe, Row, Scene};
+use crate::scene::{Probe, Row, Scene, System};
 use crate::scheme::{Method, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
@@ -70,13 +72,14 @@ fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64)
     let length = error_length(watched, &base);
     let speed = largest(base.velocities()).max(length / (spacing * ROWS as f64));
     let directions = if watched.initial.v.len() > 1 { DIRECTIONS } else { 1 };
+    let weights = weights(watched);
     let mut start = 0.0_f64;
     let mut factor = vec![0.0_f64; base.time().len()];
     for direction in 0..directions {
         let changes = directions_of(watched.initial.v.len(), direction);
         let mut beside = watched.clone();
-        for (v, change) in beside.initial.v.iter_mut().zip(changes) {
-            *v += delta * speed * change;
+        for ((v, change), weight) in beside.initial.v.iter_mut().zip(changes).zip(&weights) {
+            *v += delta * speed * change * weight;
         }
         let moved = record(&beside, method, step, spacing, Some((&base, FULL * length)))?;
         for ((w, w_moved), probe) in base.displacements().iter().zip(moved.displacements()).zip(&watched.probes) {
@@ -92,6 +95,15 @@ fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64)
     let factor = factor.into_iter().map(|f| if f.is_nan() { f } else { (f / start).max(1.0) }).collect();
     let source = if method.scheme.is_exact() { Source::ExactRuns } else { Source::Runs(*method) };
     Ok(Growth { time: base.time().to_vec(), factor, source })
+}
+
+/// √(μ/m) of each coordinate of `watched`, with its mass m and the least mass μ that a probe feels.
+fn weights(watched: &Scene) -> Vec<f64> {
+    let System::Structure(structure) = &watched.system else { return vec![1.0] };
+    let felt = watched.masses_along(watched.probes.iter().map(|probe| &probe.at));
+    let least = felt.into_iter().reduce(f64::min).unwrap_or(f64::INFINITY);
+    let weight = |mass: f64| if least.is_finite() { (least / mass).sqrt() } else { 1.0 };
+    structure.mass.diagonal_entries().into_iter().map(weight).collect()
 }
 
 /// Raises `factor` to the size of the difference of two columns at each row, of the displacements

@@ -183,3 +183,43 @@ fn nothing_grows_in_a_block_on_its_pad() {
     // At ζ = ½ a change at most grows by the transient of a damped oscillator.
     assert!(growth.until(block.duration) < 2.0, "{growth:?}");
 }
+
+/// The horizon of a scene in other units of mass is the same, also of a structure in modes, whose
+/// coordinates are no displacements.
+#[test]
+fn the_unit_of_mass_does_not_change_a_horizon() {
+    let horizons: Vec<f64> = [1.0, 2_f64.powi(-20), 2_f64.powi(20)].into_iter().flat_map(horizons_in_unit).collect();
+    // Powers of 2 scale the runs exactly, but for the square roots in the modes.
+    for pair in horizons.chunks(2).skip(1) {
+        assert!((pair[0] - horizons[0]).abs() < 1e-9 && (pair[1] - horizons[1]).abs() < 0.05, "{horizons:?}");
+    }
+    // The same structure in its masses, and in all of its modes: of other directions of the change.
+    assert!((horizons[1] / horizons[0] - 1.0).abs() < 0.3, "{horizons:?}");
+}
+
+/// The horizons of a chain that a pad rubs and walls stop, whose masses and forces are `unit` times
+/// as large: in its masses, and in its modes.
+fn horizons_in_unit(unit: f64) -> [f64; 2] {
+    let text = |modes: &str| {
+        let [masses, springs] = [[1.0, 0.5, 0.8], [200.0, 300.0, 100.0]].map(|values| values.map(|x| x * unit));
+        format!(
+            "[system]\nchain = {{ masses = {masses:?}, springs = [{:?}, {:?}], left = {{ stiffness = {:?} }}, \
+             right = \"free\" }}\ndamping = {{ rayleigh = {{ mass = 0.1, stiffness = 1e-4 }} }}\n{modes}\n\
+             [[wall]]\nname = \"a\"\nat = {{ dof = 2 }}\nside = \"upper\"\nposition = 0.003\nrestitution = 0.5\n\
+             [[wall]]\nname = \"c\"\nat = {{ row = [[1, 1.0], [2, -1.0]] }}\nside = \"upper\"\nposition = 0.001\n\
+             restitution = 0.8\n[[load]]\nharmonic = {{ amplitude = {:?}, frequency = 3.0 }}\nat = {{ dof = 1 }}\n\
+             [[slider]]\nname = \"pad\"\nat = {{ dof = 1 }}\nnormal_force = {:?}\nfriction = 0.3\n\
+             [initial]\nvelocity = [0.1, 0.0, -0.05]\n[time]\nend = 1.0\nstep = 1e-4",
+            springs[0],
+            springs[1],
+            springs[2],
+            2.0 * unit,
+            0.3 * unit
+        )
+    };
+    ["", "modes = 3\n"].map(|modes| {
+        let case = signorini::case::CaseFile::from_text(&text(modes), "chain.toml", ".").case().unwrap();
+        let method = Scheme::MoreauJean { theta: 0.5 }.into();
+        Growth::by_runs(&case.scene, &method, 1e-4).unwrap().horizon(LARGEST_GROWTH)
+    })
+}
