@@ -34,7 +34,9 @@ const HELD: f64 = 1e-13;
 ///
 /// ½ qᵀK q − fᵀq + Σ k s²/2
 ///
-/// over all rigid walls and holes, with the depth s in each elastic one. A wall or hole that the
+/// over all rigid walls and holes, with the depth s in each elastic one; the energy is k sⁿ⁺¹/(n + 1)
+/// where the force grows with the depth to the power n, by Newton's method: each programme has the
+/// tangent of that force at the depth found by the one before. A wall or hole that the
 /// free shape would pass carries preload from the start. Friction is left out.
 ///
 /// K may leave motions free, as those of a body without springs. So the programmes add ½σ ‖q − q′‖²
@@ -58,9 +60,21 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     let pull = pull(scene, &force, scale);
     let a = Symmetric::sum(&[(1.0, &structure.stiffness), (pull, &structure.mass)]);
     let open = open_size(scene, &a, &force);
-    let mut held = StaticProgramme::new(scene, a, scale).map_err(|failure| refused(scene, &failure))?;
+    let stiffens = scene.walls.iter().any(|wall| !wall.law.is_linear());
+    let mut depths = vec![0.0; scene.walls.len()];
+    let programme = |depths: &[f64]| {
+        StaticProgramme::new(scene, a.clone(), scale, depths).map_err(|failure| refused(scene, &failure))
+    };
+    let mut held = programme(&depths)?;
     let (mut q, mut before) = (vec![0.0; n], f64::INFINITY);
-    for _ in 0..MOST_ROUNDS {
+    for round in 0..MOST_ROUNDS {
+        if stiffens && round > 0 {
+            let reached = scene.walls.iter().zip(held.forces(&scene.walls));
+            // Of the first programme, to which the wall is hard, the depth at its force.
+            depths =
+                reached.map(|(wall, force)| depth_at(&wall.law, force).max(-wall.gap(wall.coordinate(&q)))).collect();
+            held = programme(&depths)?;
+        }
         let mut b = force.clone();
         scene.system.add_mass(pull, &q, &mut b);
         let x = held.solve(&b).map_err(|failure| refused(scene, &failure))?;
@@ -105,6 +119,35 @@ fn is_zero(scene: &Scene, q: &[f64], pressed: &[usize], open: Option<f64>) -> bo
     open.is_some_and(|open| q.iter().all(|q| q.abs() <= HELD * open)) && pressed.iter().all(at_zero)
 }
 
+/// The tangent of a wall's static force over the depth: that of a spring whose face has receded. A
+/// rigid wall, and one whose force begins without a slope, is hard.
+struct Tangent {
+    /// m/N.
+    compliance: f64,
+    /// By how much the face of the spring lies behind that of the wall, m.
+    recess: f64,
+}
+
+impl Tangent {
+    /// That of `law` at `depth` (m).
+    fn of(law: &WallLaw, depth: f64) -> Self {
+        let (stiffness, exponent) = match *law {
+            WallLaw::Elastic { stiffness, .. } => (stiffness, 1.0),
+            WallLaw::HuntCrossley { stiffness, exponent, .. } => (stiffness, exponent),
+            _ => return Self { compliance: 0.0, recess: 0.0 },
+        };
+        let slope = exponent * stiffness * depth.max(0.0).powf(exponent - 1.0);
+        let compliance = if slope > 0.0 { 1.0 / slope } else { 0.0 };
+        Self { compliance, recess: depth.max(0.0) * (1.0 - 1.0 / exponent) }
+    }
+}
+
+/// The depth of a wall that stiffens at which its static force is `force` (N), m; 0 of others.
+fn depth_at(law: &WallLaw, force: f64) -> f64 {
+    let WallLaw::HuntCrossley { stiffness, exponent, .. } = *law else { return 0.0 };
+    (force / stiffness).powf(1.0 / exponent)
+}
+
 /// The programme of a static shape.
 enum StaticProgramme {
     /// Between walls alone.
@@ -115,14 +158,20 @@ enum StaticProgramme {
 
 impl StaticProgramme {
     /// With the matrix `a`, for lengths of the size `scale`.
-    fn new(scene: &Scene, a: Symmetric, scale: f64) -> std::result::Result<Self, Failure> {
+    ///
+    /// The walls have the tangents of their laws at these `depths` (m).
+    fn new(scene: &Scene, a: Symmetric, scale: f64, depths: &[f64]) -> std::result::Result<Self, Failure> {
         let n = a.size();
-        let compliance = |law: &WallLaw| law.spring().map_or(0.0, |spring| 1.0 / spring.stiffness);
-        let soft: Vec<f64> = scene.walls.iter().map(|wall| compliance(&wall.law)).collect();
-        let bound = |wall: &Wall, side: Side, none: f64| if wall.side() == side { wall.position() } else { none };
+        let tangents: Vec<Tangent> =
+            scene.walls.iter().zip(depths).map(|(wall, depth)| Tangent::of(&wall.law, *depth)).collect();
+        let soft: Vec<f64> = tangents.iter().map(|tangent| tangent.compliance).collect();
+        let bound = |(wall, tangent): (&Wall, &Tangent), side: Side, none: f64| {
+            if wall.side() == side { wall.position() - side.sign() * tangent.recess } else { none }
+        };
+        let walls = || scene.walls.iter().zip(&tangents);
         let (lo, hi) = (
-            scene.walls.iter().map(|wall| bound(wall, Side::Lower, f64::NEG_INFINITY)),
-            scene.walls.iter().map(|wall| bound(wall, Side::Upper, f64::INFINITY)),
+            walls().map(|wall| bound(wall, Side::Lower, f64::NEG_INFINITY)),
+            walls().map(|wall| bound(wall, Side::Upper, f64::INFINITY)),
         );
         if !scene.walls.iter().any(Wall::is_round) {
             let g = Rows::new(n, scene.walls.iter().map(|wall| wall.row().entries()));
@@ -130,7 +179,7 @@ impl StaticProgramme {
             return Ok(Self::Walls { solver: Box::new(solver), lo: lo.collect(), hi: hi.collect() });
         }
         let (mut rows, mut blocks, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
-        for (wall, (lo, hi)) in scene.walls.iter().zip(lo.zip(hi)) {
+        for ((wall, tangent), (lo, hi)) in walls().zip(lo.zip(hi)) {
             match &wall.face {
                 Face::Flat { at, .. } => {
                     rows.push(at);
@@ -139,7 +188,7 @@ impl StaticProgramme {
                 }
                 Face::Round { at, centre, gap } => {
                     rows.extend([&at.y, &at.z]);
-                    bounds.push(DiskBound::Disk { centre: *centre, radius: *gap });
+                    bounds.push(DiskBound::Disk { centre: *centre, radius: *gap + tangent.recess });
                     blocks.push(2);
                 }
             }
@@ -149,21 +198,27 @@ impl StaticProgramme {
         Ok(Self::Holes { solver: Box::new(solver), bounds })
     }
 
-    /// The holes and walls that press: the rounding of a displacement of many gaps is more than the
-    /// distance within which a wall counts as touched.
-    fn pressed(&self, walls: &[Wall]) -> Vec<usize> {
+    /// The force of each wall, N.
+    fn forces(&self, walls: &[Wall]) -> Vec<f64> {
         let solution = match self {
             Self::Walls { solver, .. } => solver.solution(),
             Self::Holes { solver, .. } => solver.solution(),
         };
         let mut next = 0;
-        let presses = |wall: &Wall| {
+        let force = |wall: &Wall| {
             let first = next;
             next += if wall.is_round() { 2 } else { 1 };
-            solution.multiplier.get(first..next).is_some_and(|forces| forces.iter().any(|force| *force != 0.0))
+            let parts = solution.multiplier.get(first..next).unwrap_or_default();
+            parts.iter().fold(0.0, |force: f64, part| force.hypot(*part))
         };
-        let found: Vec<bool> = walls.iter().map(presses).collect();
-        (0..found.len()).filter(|&index| found[index]).collect()
+        walls.iter().map(force).collect()
+    }
+
+    /// The holes and walls that press: the rounding of a displacement of many gaps is more than the
+    /// distance within which a wall counts as touched.
+    fn pressed(&self, walls: &[Wall]) -> Vec<usize> {
+        let forces = self.forces(walls).into_iter().enumerate();
+        forces.filter(|(_, force)| *force != 0.0).map(|(index, _)| index).collect()
     }
 
     /// The minimiser for b, n entries.
@@ -215,6 +270,34 @@ mod tests {
     fn floating(mass: f64, stiffness: f64) -> Scene {
         let chain = Chain { masses: vec![mass; 3], springs: vec![stiffness; 2], grounds: [0.0; 2] };
         Scene::structure(chain.structure().unwrap())
+    }
+
+    /// Stiffness times displacement and the walls' own forces balance the loads, whatever the
+    /// exponents of the walls; the force of each follows from its law at the depth found.
+    #[test]
+    fn walls_that_stiffen_hold_a_structure_by_their_own_force() {
+        let chain = Chain { masses: vec![1.0; 3], springs: vec![200.0, 300.0], grounds: [50.0, 0.0] };
+        for exponent in [1.0, 1.5, 2.0, 10.0] {
+            // Deep and shallow: of 1e6 N/mⁿ and softer, with a gap, without one, and with preload.
+            for (stiffness, position) in [(1e6, 0.0), (1e6, -1e-3), (1e3, 2e-3), (20.0, 5e-2)] {
+                let scene = Scene::structure(chain.structure().unwrap())
+                    .with_wall(
+                        Wall::lower("low", position).at(Row::dof(0)).with_hunt_crossley(stiffness, exponent, 0.1),
+                    )
+                    .with_wall(Wall::upper("high", 1e-3).at(Row::dof(2)).with_hunt_crossley(1e5, exponent, 0.0))
+                    .with_load(Load { at: Row::dof(0), ..Load::constant(-3.0) })
+                    .with_load(Load { at: Row::dof(2), ..Load::constant(40.0) });
+                let q = equilibrium(&scene).unwrap();
+                let mut balance = vec![-3.0, 0.0, 40.0];
+                scene.system.structure().stiffness.add_product(-1.0, &q, &mut balance);
+                for (wall, at) in scene.walls.iter().zip([0, 2]) {
+                    balance[at] += wall.law_force(q[at], 0.0);
+                }
+                let worst = balance.iter().fold(0.0_f64, |worst, x| worst.max(x.abs()));
+                // Rounding of forces of up to 1e3 N that stiffen tenfold with the depth.
+                assert!(worst < 1e-9, "{exponent} {stiffness} {position}: {q:?} {balance:?}");
+            }
+        }
     }
 
     #[test]
