@@ -99,7 +99,8 @@ impl Recording for Recorded {
         from: f64,
     ) -> (Trajectory, Statistics) {
         let trajectory = recorder.rows.finish(open);
-        let statistics = Statistics::of(scene, masses, trajectory.contacts(), from);
+        let contacts = recorder.forces.in_window(trajectory.contacts());
+        let statistics = Statistics::of(scene, masses, &contacts, from);
         (trajectory, statistics.with_forces(&recorder.forces).with_wear(&recorder.wear))
     }
 

@@ -3,11 +3,12 @@
 use super::batch::{BATCHES, BatchSums, NO_SUMS, Window};
 use super::largest_force::{LargestForce, LargestStretch};
 use super::settling::Beginning;
-use super::step_force::{impulse, piece};
+use super::step_force::{Piece, impulse, piece};
 use super::support::{SupportForce, SupportTally};
 use crate::scene::Scene;
-use crate::step::{Path, Step};
+use crate::step::{Contact, Path, Step};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Maximum number of averaging intervals in a window; they are longer where a window would hold
 /// more. They cost time where a contact lasts.
@@ -60,6 +61,25 @@ struct Tally {
     square: BatchSums,
     /// The impulse in the current interval, N s.
     stretch: f64,
+    carried: Carried,
+}
+
+/// The part in the window of a contact that began before.
+#[derive(Debug, Clone, Copy)]
+struct Carried {
+    /// Up to when the wall has pushed without a pause since the start of the window, s.
+    until: f64,
+    /// Its largest |force| in that time, N.
+    largest: f64,
+}
+
+impl Carried {
+    /// Adds the force between two times (s), at most `force` (N).
+    fn add(&mut self, [from, to]: [f64; 2], force: f64) {
+        if from <= self.until {
+            (self.until, self.largest) = (to, self.largest.max(force));
+        }
+    }
 }
 
 /// Sums up the forces of the walls over the steps of a run.
@@ -95,7 +115,8 @@ impl Forces {
         let bin = span / inner as f64;
         // The first interval may begin before the window.
         let before = ((window.first - window.from) / bin).ceil() as u64;
-        let tally = |rigid| Tally { rigid, impulse: 0.0, pushed: NO_SUMS, square: NO_SUMS, stretch: 0.0 };
+        let carried = Carried { until: window.from, largest: 0.0 };
+        let tally = |rigid| Tally { rigid, impulse: 0.0, pushed: NO_SUMS, square: NO_SUMS, stretch: 0.0, carried };
         let walls = scene.walls.iter().map(|wall| tally(wall.law.is_rigid())).collect();
         Self {
             window,
@@ -131,8 +152,9 @@ impl Forces {
             let to = edge.min(end);
             for wall in 0..self.walls.len() {
                 if step.impulse[wall] != 0.0 {
-                    let (p, square) = piece(step, wall, [from, to]);
-                    self.add(wall, p, square);
+                    let Piece { impulse, square, largest } = piece(step, wall, [from, to]);
+                    self.add(wall, impulse, square);
+                    self.walls[wall].carried.add([from, to], largest);
                 }
             }
             self.stretch(step, [from, to]);
@@ -227,6 +249,22 @@ impl Forces {
         let Self { walls, supports, .. } = self;
         let impulse = |wall: usize| walls.get(wall).map_or(0.0, |tally| tally.stretch);
         supports.iter_mut().for_each(|support| support.close(batch, length, impulse));
+    }
+
+    /// The `contacts`, each of which that began before the window and lasts into it with its largest
+    /// force in the window.
+    pub(crate) fn in_window<'a>(&self, contacts: &'a [Contact]) -> Cow<'a, [Contact]> {
+        let from = self.window.from;
+        let largest = |contact: &Contact| {
+            let lasts = contact.start < from && contact.end.is_none_or(|end| end > from);
+            let carried = self.walls.get(contact.wall).filter(|_| lasts && contact.peak_force.is_some())?.carried;
+            (carried.largest > 0.0).then_some(carried.largest)
+        };
+        if contacts.iter().all(|contact| largest(contact).is_none()) {
+            return Cow::Borrowed(contacts);
+        }
+        let trimmed = |contact: &Contact| Contact { peak_force: largest(contact).or(contact.peak_force), ..*contact };
+        contacts.iter().map(trimmed).collect()
     }
 
     /// Statistics of wall number `wall`, at which `contacts` began in the window; `None` for a

@@ -100,8 +100,9 @@ pub struct WallStatistics {
     /// of those in which it is finite.
     #[serde(default)]
     pub force_largest: Option<LargestForce>,
-    /// Largest |force| of each episode that overlaps the window and whose force is finite, N: at an
-    /// elastic wall, or in a lasting contact on a rigid one. The mean is over episodes.
+    /// Largest |force| in the window of each episode that overlaps it and whose force is finite, N:
+    /// at an elastic wall, or in a lasting contact on a rigid one. The mean is over episodes.
+    /// [`Statistics::new`], which knows the contacts alone, has the largest of the whole episode.
     pub episode_peak_force_n: Summary,
     /// |impulse| of each episode that began in the window, N s.
     pub episode_impulse_n_s: Summary,
@@ -244,8 +245,8 @@ impl Statistics {
     /// window, N; `None` where an impact is among them, whose force is not finite.
     pub(crate) fn peak_force(&self, contacts: &[Contact], wall: usize) -> Option<f64> {
         let reaches = |c: &&Contact| c.wall == wall && c.end.is_none_or(|end| end >= self.from_s);
-        let peaks: Option<Vec<f64>> = contacts.iter().filter(reaches).map(|c| c.peak_force).collect();
-        Summary::of(peaks?.into_iter()).max
+        let struck = contacts.iter().filter(reaches).any(|c| c.peak_force.is_none());
+        self.walls.get(wall).and_then(|wall| wall.episode_peak_force_n.max).filter(|_| !struck)
     }
 }
 

@@ -19,26 +19,38 @@ fn even_force(step: &Step<'_>, wall: usize) -> f64 {
     (step.impulse[wall] - step.jump[wall]) / (step.end - step.start)
 }
 
-/// Impulse (N s) of a wall over a piece of a step, without the jump at its end, and ∫ of the
-/// squared force, N² s.
-pub(super) fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
+/// What a wall gives over a piece of a step, without the jump at its end.
+pub(super) struct Piece {
+    /// N s.
+    pub impulse: f64,
+    /// ∫ of the squared force, N² s.
+    pub square: f64,
+    /// The largest |force|, N: of exact motion at instants a quarter of a radian apart or less.
+    pub largest: f64,
+}
+
+/// What wall number `wall` gives between two times in a step (s).
+pub(super) fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> Piece {
+    let whole = impulse(step, wall, [from, to]);
     let rate = match step.path {
         Path::Exact(arc) => arc.fastest_motion(),
         Path::Series(series) => series.rate(),
         Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
             let force = even_force(step, wall);
-            return (impulse(step, wall, [from, to]), force * force * (to - from));
+            return Piece { impulse: whole, square: force * force * (to - from), largest: force.abs() };
         }
     };
     // Each part is half a radian of the fastest motion, so one radian of the squared force.
     let parts = ((to - from) * rate * 2.0).ceil().clamp(1.0, 1e6);
     let span = (to - from) / parts;
     let force = |part: f64, node: f64| step.path.contact_force(wall, from + span * (part + node));
-    let mut square = 0.0;
+    let (mut square, mut largest) = (0.0, 0.0_f64);
     let mut part = 0.0;
     while part < parts {
-        square += GAUSS.iter().map(|&node| force(part, node).powi(2)).sum::<f64>() * 0.5 * span;
+        let forces = GAUSS.map(|node| force(part, node));
+        square += (forces[0] * forces[0] + forces[1] * forces[1]) * 0.5 * span;
+        largest = forces.iter().fold(largest, |largest, force| largest.max(force.abs()));
         part += 1.0;
     }
-    (impulse(step, wall, [from, to]), square)
+    Piece { impulse: whole, square, largest }
 }

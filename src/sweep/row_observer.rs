@@ -110,10 +110,10 @@ impl RowObserver {
         self.contacts.extend_from_slice(open);
         sort_by_number(&mut self.contacts, |contact| contact.wall as f64);
         sort_by_number(&mut self.contacts, |contact| contact.start);
-        let statistics = Statistics::of(scene, scene.wall_masses(), &self.contacts, self.from);
+        let of = |contacts: &[Contact]| Statistics::of(scene, scene.wall_masses(), contacts, self.from);
         let statistics = match &self.forces {
-            Some(forces) => statistics.with_forces(forces),
-            None => statistics,
+            Some(forces) => of(&forces.in_window(&self.contacts)).with_forces(forces),
+            None => of(&self.contacts),
         };
         let statistics = match &self.wear {
             Some(wear) => statistics.with_wear(wear),

@@ -1,7 +1,7 @@
 //! Contact statistics against sums done by hand.
 
 use crate::rubbing::{body, isotropic, with_flats};
-use signorini::{Contact, Scene, Statistics, Wall};
+use signorini::{Contact, Load, Options, Scene, Scheme, Statistics, TimeOptions, Wall};
 
 fn scene() -> Scene {
     // 2 kg, ten seconds.
@@ -344,4 +344,25 @@ fn a_contact_that_ends_after_the_window_counts_up_to_its_end() {
     contacts[9].end = Some(11.0);
     let even = Statistics::new(&scene(), &contacts, 0.0).walls[1].half_width_95.expect("ten contacts");
     assert!(even.contact_time_ratio < 1e-15, "{even:?}");
+}
+
+/// A mass pushed onto an elastic stop by a step of force swings, and rests after 1 s to e⁻⁶⁰: the
+/// window after that has the force of the springs at rest, none of the swing, in a contact that has
+/// lasted since.
+#[test]
+fn the_largest_force_of_a_contact_that_began_before_the_window_is_one_of_the_window() {
+    let stop = Wall::upper("stop", 0.0).with_elasticity(1e5, 100.0);
+    let scene = Scene::oscillator(1.0, 20.0, 100.0).with_wall(stop).with_load(Load::constant(10.0)).with_duration(2.0);
+    let rest = 10.0 * 1e5 / (1e5 + 100.0);
+    let options = Options::new(TimeOptions { statistics_from: 1.0, ..TimeOptions::with_step(1e-4) });
+    for scheme in [Scheme::Event, Scheme::MoreauJean { theta: 0.5 }, Scheme::Located] {
+        let run = signorini::run(&scene, &scheme, &options).unwrap();
+        let swing = run.trajectory.contacts()[0].peak_force.unwrap();
+        assert!(swing > 1.5 * rest, "{scheme}: {swing}");
+        let wall = &run.statistics.walls[0];
+        for found in [wall.force_largest.unwrap().mean_n, wall.episode_peak_force_n.max.unwrap()] {
+            // The rounding of the springs' displacement over a step.
+            assert!((found / rest - 1.0).abs() < 1e-7, "{scheme}: {found} for {rest}");
+        }
+    }
 }
