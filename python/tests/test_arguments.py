@@ -63,6 +63,8 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: fitted({"start": [0.3, 0.1], "wall": "upper"}), "starts at wall 'upper' do not increase"),
     (lambda: fitted({"time": [0.1, 0.6], "displacement": [0.0, 0.0]}), r"data: time has 0\.6 s"),
     (lambda: fitted({"time": [0.2, 0.1], "displacement": [0.0, 0.0]}), "data: time does not increase"),
+    (lambda: fitted({"start": [0.3, 9.0], "wall": "upper"}), "start has 9 s; expected times from 0 to the end of the motion"),
+    (lambda: fitted({"approach_speed": [0.3, -0.1], "wall": "upper"}), r"approach_speed is -0\.1 m/s; expected 0 or more"),
     (lambda: fitted({}), "data has nothing; expected"),
     (lambda: fitted({"start": [0.1, 0.3], "wall": "upper"}, error={"start": [1.0] * 3}), r"error of start has the shape"),
     (lambda: pair(walls=[sg.Wall.upper("w", 1.0, at=[(0, 1.0), (0, 2.0)])]), 'wall "w": at is .* once'),

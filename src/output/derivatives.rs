@@ -96,10 +96,16 @@ fn effects_of(scene: &Scene, derivatives: &Derivatives) -> Vec<Effect> {
     derivatives.measured().into_iter().map(effect).collect()
 }
 
-/// What a reader of the derivatives must know, a sentence each.
+/// What a reader of the derivatives must know, a sentence each, beside statistics `from` that time
+/// (s) on.
 #[must_use]
-pub fn remarks(scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Vec<String> {
+pub fn remarks(scene: &Scene, from: f64, keys: &[DerivativeKey], derivatives: &Derivatives) -> Vec<String> {
     let mut remarks = Vec::new();
+    if from > 0.0 {
+        remarks.push(format!(
+            "derivatives, and the numbers beside them, are those of the whole run; the statistics begin at {from} s"
+        ));
+    }
     let (counted, all) = (derivatives.predictable().count(), derivatives.contacts.len());
     if all == 0 && derivatives.open == 0 && derivatives.ended.is_none() {
         remarks.push(format!(

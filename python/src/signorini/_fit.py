@@ -160,6 +160,14 @@ def _contact_columns(
     if "impulse" in columns:
         least = _OPPOSITE * errors["impulse"] if error is not None and "impulse" in error else np.zeros(count)
         _check_signs(columns["impulse"], least, wall, {one.name: one.side for one in scene.walls})
+    if "approach_speed" in columns:
+        least = _OPPOSITE * errors["approach_speed"] if error is not None else np.zeros(count)
+        for speed in columns["approach_speed"][columns["approach_speed"] < -least]:
+            raise ValueError(f"data: approach_speed is {speed:g} m/s; expected 0 or more, as in run.contacts")
+    for start in columns.get("start", np.empty(0)):
+        if not 0.0 <= start <= scene.duration:
+            expected = f"times from 0 to the end of the motion, {scene.duration:g} s"
+            raise ValueError(f"data: start has {start:g} s; expected {expected}")
     number = [wall[:i].count(name) for i, name in enumerate(wall)]
     for name in set(wall) if "start" in columns else ():
         own = columns["start"][[one == name for one in wall]]
@@ -251,9 +259,9 @@ def fit(
     Raises
     ------
     ValueError
-        For data that do not fit the scene, as fewer contacts in its motion than in the data, or
-        impulses of the other sign than a wall gives, for a key that starts outside of its bounds,
-        and as `derivative`.
+        For data that do not fit the scene, as fewer contacts in its motion than in the data, a start
+        after its end, a negative approach speed, or impulses of the other sign than a wall gives,
+        for a key that starts outside of its bounds, and as `derivative`.
     TypeError
         For data or errors that are no mapping.
     RunError

@@ -69,6 +69,8 @@ impl fmt::Display for Verdict {
             let [before, after] = wall.contacts;
             match before {
                 _ if before != after => write!(f, ", contacts {before} → {after}")?,
+                // One that began before the window lasts on.
+                0 if wall.impulse_n_s[0] != 0.0 => f.write_str(", no contact begins, as before")?,
                 0 => f.write_str(", no contact as before")?,
                 1 => f.write_str(", 1 contact as before")?,
                 _ => write!(f, ", {before} contacts as before")?,

@@ -50,12 +50,14 @@ function attractorText(attractors, number) {
 }
 
 /** The map of starts by attractor, with its legend. */
-function basinMap(columns, [first, second], attractors, tell, pick) {
+function basinMap(columns, [first, second], otherAxes, attractors, tell, pick) {
+  const slice = sliceOf(columns, otherAxes, () => plot.refill());
   const plot = cellMap({
     x: columnLabel(first),
     y: columnLabel(second),
     xs: columns[first],
     ys: columns[second],
+    shows: slice.shows,
     toneOf: (i) => attractorTone(columns.attractor[i]),
     tell,
     pick,
@@ -88,7 +90,8 @@ function basinMap(columns, [first, second], attractors, tell, pick) {
         () => `rgb(${NO_TONE})`,
       ),
     );
-  return el("div", {}, el("div", { class: "bar" }, own), plot.box);
+  const controls = slice.controls.length ? el("div", { class: "bar controls" }, slice.controls) : null;
+  return el("div", {}, controls, el("div", { class: "bar" }, own), plot.box);
 }
 
 /** The attractors as a table. */

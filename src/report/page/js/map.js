@@ -26,8 +26,9 @@ function edgesOf(values, log) {
 }
 
 /**
- * A map of cells. Options: x, y (labels), xs, ys (values of each row of the table), toneOf(i) an RGB
- * triple, tell(i) the text of a cell, pick(i), height, beside(ctx, plot).
+ * A map of cells. Options: x, y (labels), xs, ys (values of each row of the table), shows(i) whether
+ * a row is among those drawn, toneOf(i) an RGB triple, tell(i) the text of a cell, pick(i), height,
+ * beside(ctx, plot). Its `refill` draws the rows that are shown by then.
  */
 function cellMap(options) {
   const axes = [distinct(options.xs), distinct(options.ys)];
@@ -35,8 +36,12 @@ function cellMap(options) {
   const edges = axes.map((values, k) => edgesOf(values, logs[k]));
   const index = axes.map((values) => new Map(values.map((value, i) => [value, i])));
   const cells = new Map();
-  for (let i = 0; i < options.xs.length; i++)
-    cells.set(`${index[0].get(options.xs[i])} ${index[1].get(options.ys[i])}`, i);
+  const refill = () => {
+    cells.clear();
+    for (let i = 0; i < options.xs.length; i++)
+      if (!options.shows || options.shows(i)) cells.set(`${index[0].get(options.xs[i])} ${index[1].get(options.ys[i])}`, i);
+  };
+  refill();
   const rectangle = (plot, i) => {
     const [a, b] = [index[0].get(options.xs[i]), index[1].get(options.ys[i])];
     const [x0, x1] = [plot.sx(edges[0][a]), plot.sx(edges[0][a + 1])];
@@ -71,6 +76,11 @@ function cellMap(options) {
     return cells.get(`${before(edges[0], x)} ${before(edges[1], y)}`);
   };
   let found;
+  plot.refill = () => {
+    found = undefined;
+    refill();
+    plot.redraw();
+  };
   plot.hover = (x, at) => {
     found = x === null ? undefined : cellAt(at);
     showTip(plot, tip, found === undefined ? "" : options.tell(found), at);

@@ -7,6 +7,7 @@ function sweepSection() {
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
+  const otherAxes = axes.map((axis) => axis.column).filter((name) => !axisColumns.slice(0, 2).includes(name));
   const attractors = readAttractors();
   const over = readOver();
   const measures = table.names
@@ -56,12 +57,12 @@ function sweepSection() {
   // First the measures, which are there only where they were asked for.
   const content = [];
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
-  if (basins) content.push(basinMap(columns, axisColumns, attractors, tell, pick));
+  if (basins) content.push(basinMap(columns, axisColumns, otherAxes, attractors, tell, pick));
   const bands = curves.length > 0 && !effects;
   if (measures.length && axisColumns.length && !basins && !effects) {
     content.push(
       axisColumns.length > 1
-        ? measureMap(columns, axisColumns, measures, tell, pick)
+        ? measureMap(columns, axisColumns, otherAxes, measures, tell, pick)
         : measureCurves(columns, axisColumns[0], measures, tell, pick, { over, view }),
     );
   }
@@ -230,6 +231,22 @@ function columnChoice(label, names, choice, fill) {
   });
 }
 
+/** The rows with one value of each of the axes `names`, which a map does not show: whether a row is
+ *  among them, and the controls that choose the values. */
+function sliceOf(columns, names, onChange) {
+  const several = names.map((name) => [name, [...new Set(columns[name])]]).filter(([, values]) => values.length > 1);
+  const chosen = new Map(several.map(([name, values]) => [name, values[0]]));
+  const shown = (value) => (typeof value === "number" ? digits(value, 6) : `${value}`);
+  const controls = several.map(([name, values]) =>
+    selection(columnLabel(name), values.map((value, k) => [`${k}`, `${columnLabel(name)}: ${shown(value)}`]), "0", (k) => {
+      chosen.set(name, values[Number(k)]);
+      onChange();
+    }),
+  );
+  const shows = (i) => several.every(([name]) => columns[name][i] === chosen.get(name));
+  return { shows, controls };
+}
+
 /** The tones of the numbers of `range` beside a map, with the name of what it shows. */
 function drawColourBar(ctx, plot, range, name) {
   const { y0, y1 } = plot;
@@ -256,7 +273,8 @@ function drawColourBar(ctx, plot, range, name) {
 }
 
 /** A measure over two axes. */
-function measureMap(columns, [first, second], measures, tell, pick) {
+function measureMap(columns, [first, second], others, measures, tell, pick) {
+  const slice = sliceOf(columns, others, () => plot.refill());
   const choice = { name: measures[0] };
   let range = [0, 1];
   const unknown = el("div", { class: "bar" }, swatch("no number", () => "rgb(128 128 128)"));
@@ -279,6 +297,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
     y: columnLabel(second),
     xs: columns[first],
     ys: columns[second],
+    shows: slice.shows,
     toneOf,
     tell,
     pick,
@@ -295,6 +314,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
       "div",
       { class: "bar controls" },
       columnChoice("Measure", measures, choice, fill),
+      slice.controls,
     ),
     unknown,
     plot.box,
