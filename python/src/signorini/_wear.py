@@ -55,7 +55,8 @@ class WearStudy:
     ``years`` has the columns of ``years.csv``: means over the histories with the half widths of
     their 95 % intervals (``gap_m``, of flats the least; ``depth_deepest_m``,
     ``depth_all_round_m``, ``depth_one_scar_m``, ``work_rate_W`` and the same with
-    ``half_width_95`` in the name), a row for each ``year`` and ``place``. ``history`` has those of
+    ``half_width_95`` in the name), a row for each ``year`` and ``place``: at the windows, and between two
+    where a depth does not grow straight. ``history`` has those of
     ``history.csv``, a row for each history as well, ``sectors`` those of ``sector-means.csv``: the
     depth at the end in each sector of a hole, and at each flat (``place``, ``part``, ``from_deg``,
     ``to_deg``, ``depth_m``, ``depth_half_width_95_m``). ``limit`` is the depth up to which the tube may wear, m, or None, and
