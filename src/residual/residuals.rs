@@ -28,7 +28,7 @@ pub struct Residuals {
     /// Largest force with which a wall pulled, N, ≥ 0.
     pub tension_n: f64,
     /// Largest residual of the momentum balance of a step, or of a part of one, divided by h, N (N
-    /// m in the balance of a rotation).
+    /// m in the balance of a rotation, N/√kg in that of a mode of unit mass).
     pub force_balance_n: f64,
     /// The larger of two: that residual over the largest force in the balance; and the difference
     /// of q⁺ − q from what the velocities give, over the gap scale or the largest |q|, whichever is
