@@ -73,6 +73,13 @@ pub(super) fn force(newtons: Option<f64>) -> String {
     newtons.map_or_else(|| "-".to_owned(), |newtons| in_column(newtons, 2))
 }
 
+/// The impulse of a wall, signed, or Σ|p| of a round support, in words, N s.
+fn impulse(site: &ContactSite<'_>, run: &Run) -> String {
+    let impulse = run.statistics.impulse(site.wall);
+    let sign = if site.kind == PlaceKind::Wall && impulse > 0.0 { "+" } else { "" };
+    format!("{sign}{}", in_column(impulse, 3))
+}
+
 /// The work rate of a support in words, mW.
 fn work_rate(run: &Run, support: &str) -> String {
     let own = run.statistics.wear.iter().find(|wear| wear.support == support);
@@ -120,15 +127,8 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
         quantity("contacts", &|_, run| contacts(run).to_string());
     } else {
         for site in &all {
-            let (name, signed) = match site.kind {
-                PlaceKind::Wall => ("impulse", true),
-                PlaceKind::Support => ("Σ|impulse|", false),
-            };
-            quantity(&format!("{name} {} (N s)", site.name), &|_, run| {
-                let impulse = run.statistics.impulse(site.wall);
-                let sign = if signed && impulse > 0.0 { "+" } else { "" };
-                format!("{sign}{}", in_column(impulse, 3))
-            });
+            let name = if site.kind == PlaceKind::Wall { "impulse" } else { "Σ|impulse|" };
+            quantity(&format!("{name} {} (N s)", site.name), &|_, run| impulse(site, run));
         }
         for site in &all {
             quantity(&format!("contacts {}", site.name), &|_, run| run.statistics.contacts(site.wall).to_string());

@@ -251,8 +251,8 @@ impl Forces {
         supports.iter_mut().for_each(|support| support.close(batch, length, impulse));
     }
 
-    /// The `contacts`, each of which that began before the window and lasts into it with its largest
-    /// force in the window.
+    /// The `contacts`, each of which that began before the window and lasts into it with its
+    /// largest force in the window.
     pub(crate) fn in_window<'a>(&self, contacts: &'a [Contact]) -> Cow<'a, [Contact]> {
         let from = self.window.from;
         let largest = |contact: &Contact| {

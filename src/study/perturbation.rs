@@ -4,14 +4,15 @@
 //! The initial velocities are changed by pseudo-random amounts in a few directions: each by at most
 //! δ times the largest speed for a coordinate of the least mass μ that a wall or probe feels, and
 //! for one of the mass m by √(μ/m) of that, so that the change is the same in any units, also of
-//! coordinates that are no displacements, as those of modes. At the rows, the displacement difference wδ to the unperturbed run is taken
-//! at every wall and probe. The growth is the largest √((wδ/gap)² + (ẇδ/speed)²) over its value at
-//! the start, at the same places. ẇδ is the slope of wδ between two rows, the smallest of those
-//! next to a row: at an impact wδ itself jumps, to −e wδ, and between the impacts of the two runs
-//! the velocities differ by the whole jump. While a place is inside an elastic wall wδ counts
-//! alone: of two bodies that arrive δt apart the velocities differ by δt times the acceleration
-//! there, and no more once both have left. A few random directions rarely include the worst one,
-//! but soon turn towards it: where growth is large the estimate is too small by a factor of order
+//! coordinates that are no displacements, as those of modes. At the rows, the displacement
+//! difference wδ to the unperturbed run is taken at every wall and probe. The growth is the largest
+//! √((wδ/gap)² + (ẇδ/speed)²) over its value at the start, at the same places. ẇδ is the slope of
+//! wδ between two rows, the smallest of those next to a row: at an impact wδ itself jumps, to −e
+//! wδ, and between the impacts of the two runs the velocities differ by the whole jump. While a
+//! place is inside an elastic wall wδ counts alone: of two bodies that arrive δt apart the
+//! velocities differ by δt times the acceleration there, and no more once both have left. A few
+//! random directions rarely include the worst one, but soon turn towards it: where growth is large
+//! the estimate is too small by a factor of order
 //! 1.
 //!
 //! A stepping scheme meets walls at the grid's instants only; a perturbation far below its own

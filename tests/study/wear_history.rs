@@ -60,10 +60,10 @@ fn no_step_makes_a_gap_more_than_half_as_large_again_however_long_the_service() 
     assert!(gaps.windows(2).all(|pair| pair[0] < pair[1] && pair[1] <= 1.5 * pair[0]), "{gaps:?}");
 }
 
-/// Where the gap stays, so that the work rate is constant, a scar of the depth d in the hole has the
-/// volume k W t. Its cross-section is that of the tube outside the hole, here by quadrature in polar
-/// coordinates about the centre of the tube. The year at which it is d deep does not depend on the
-/// years of the study, which has one step.
+/// Where the gap stays, so that the work rate is constant, a scar of the depth d in the hole has
+/// the volume k W t. Its cross-section is that of the tube outside the hole, here by quadrature in
+/// polar coordinates about the centre of the tube. The year at which it is d deep does not depend
+/// on the years of the study, which has one step.
 #[test]
 fn the_year_of_a_limit_follows_from_the_geometry_of_the_scar_whatever_the_years() {
     let mut supports = sliding().wearing_supports().unwrap();

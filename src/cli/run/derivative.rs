@@ -81,7 +81,10 @@ impl Wanted {
 
     /// The table of what 1 % more of each key changes, and what a reader of it must know.
     fn effects(&self, case: &Case, found: &Derivatives) -> (Option<Table>, Vec<String>) {
-        (output::table(&case.scene, &self.keys, found), output::remarks(&case.scene, case.time.statistics_from, &self.keys, found))
+        (
+            output::table(&case.scene, &self.keys, found),
+            output::remarks(&case.scene, case.time.statistics_from, &self.keys, found),
+        )
     }
 
     /// The derivatives as JSON.

@@ -90,6 +90,21 @@ pub struct Reasons {
     pub qp: String,
 }
 
+/// The impulse of each wall and round support over the whole run, N s.
+fn impulses<'a>(case: &'a Case, run: &Run) -> Result<BTreeMap<&'a str, f64>> {
+    let impulse = |site: ContactSite<'a>| {
+        let impulse = match site.kind {
+            PlaceKind::Wall => run.trajectory.impulse(site.name)?,
+            PlaceKind::Support => {
+                let here = run.trajectory.contacts().iter().filter(|contact| contact.wall == site.wall);
+                here.map(|contact| contact.impulse.abs()).sum()
+            }
+        };
+        Ok((site.name, impulse))
+    };
+    ContactSite::all(&case.scene).map(impulse).collect()
+}
+
 /// The summary of `run` on `case`, and of the `checks` made of it, as JSON: what the file holds,
 /// and what `run --json` prints, both with what is recorded of the tables beside it. A number that
 /// is not finite is null.
@@ -100,17 +115,6 @@ pub struct Reasons {
 pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
     let exact = run.scheme.is_exact();
     let study = checks.realisations;
-    let mut impulse_whole_run_n_s = BTreeMap::new();
-    for site in ContactSite::all(&case.scene) {
-        let impulse = match site.kind {
-            PlaceKind::Wall => run.trajectory.impulse(site.name)?,
-            PlaceKind::Support => {
-                let here = run.trajectory.contacts().iter().filter(|contact| contact.wall == site.wall);
-                here.map(|contact| contact.impulse.abs()).sum()
-            }
-        };
-        impulse_whole_run_n_s.insert(site.name, impulse);
-    }
     let summary = Summary {
         program: program(),
         case: &case.name,
@@ -136,7 +140,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         counters: run.counters,
         wall_clock_s: run.seconds,
         residuals: &run.residuals,
-        impulse_whole_run_n_s,
+        impulse_whole_run_n_s: impulses(case, run)?,
         statistics: &run.statistics,
         supports: supports::document(case, run),
         wear: if run.statistics.wear.is_empty() {

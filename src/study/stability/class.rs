@@ -201,7 +201,12 @@ impl Measurement {
             return (Class::Gaining, format!("{} of the energy gained per impact", percent(growth)));
         }
         if growth < -LOSS {
-            return (Class::Dissipative, format!("{} of the energy lost per impact", percent(-growth)));
+            // More than all that arrives is lost between the impacts, too.
+            let lost = match -growth {
+                lost if lost <= 1.0 => format!("{} of the energy lost per impact", percent(lost)),
+                lost => format!("{lost:.1} times the energy lost that arrives at the walls"),
+            };
+            return (Class::Dissipative, lost);
         }
         if self.passed > PASSED {
             return (Class::Astray, format!("a wall passed by {:.2} times the stated depth", self.passed));

@@ -5,9 +5,10 @@
 //! the depths at two windows tells when a limit is reached in between or later.
 
 use super::super::realisations::{Deepest, mean_of};
-use super::state::{WearHistories, WearPoint, WearQuantity, mean};
+use super::accrual::Accrual;
+use super::histories::{TimeOfLimit, WearHistories, WearPoint, mean};
+use super::state::WearQuantity;
 use super::support::WearingSupport;
-use super::{Accrual, TimeOfLimit};
 use crate::wear::WearWork;
 
 /// A time is known to the stretch over two to this power.
@@ -174,9 +175,9 @@ impl WearHistories {
         (0..self.count()).map(own).collect()
     }
 
-    /// When the mean over the histories reaches `limit` (m) after their end, if the work of all goes
-    /// on to grow at the rates of the last windows; `None` where one has reached it, or does not
-    /// grow.
+    /// When the mean over the histories reaches `limit` (m) after their end, if the work of all
+    /// goes on to grow at the rates of the last windows; `None` where one has reached it, or does
+    /// not grow.
     #[must_use]
     pub fn reaches_at_last_rate(&self, support: usize, limit: f64, quantity: WearQuantity) -> Option<TimeOfLimit> {
         if self.is_deepest_of_several(quantity) {

@@ -31,6 +31,7 @@
 
 mod accrual;
 mod course;
+mod histories;
 mod state;
 mod support;
 mod window;
@@ -38,8 +39,9 @@ mod window;
 pub(crate) use accrual::Accrual;
 use accrual::Works;
 use course::reached_from;
-use state::depths;
-pub use state::{TimeOfLimit, WearHistories, WearPoint, WearQuantity, WearState, WornThrough, mean};
+use histories::depths;
+pub use histories::{TimeOfLimit, WearHistories, WearPoint, WornThrough, mean};
+pub use state::{WearQuantity, WearState};
 pub use support::WearingSupport;
 pub use window::WearWindow;
 
