@@ -16,6 +16,8 @@ const BLOCK: usize = 4;
 const TOLERANCE: f64 = 1e-11;
 /// … or below this times the largest θ, which is rounding.
 const ROUNDING: f64 = 1e-14;
+/// The rounding of the pivots of K, as a share of the fastest ω².
+const PIVOTS: f64 = 64.0 * f64::EPSILON;
 /// The first shift, as a share of the fastest ω²: large enough to make a singular K definite.
 const SHIFT: f64 = 1e-11;
 
@@ -146,8 +148,8 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
             "fewer, or a coarser mesh: the slowest modes drown in the rounding of a very stiff K",
         )
     };
-    let fastest = fastest_squared(structure, Some(mass)).sqrt();
-    let least = SHIFT * fastest.powi(2).max(f64::MIN_POSITIVE);
+    let fastest_squared = fastest_squared(structure, Some(mass));
+    let least = SHIFT * fastest_squared.max(f64::MIN_POSITIVE);
     // A shift within the range of the modes wanted keeps the digits of the slowest and the fastest
     // of them alike. A short run finds that range.
     let mut scout = Basis::new(structure, least).ok_or_else(singular)?;
@@ -176,7 +178,8 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
         let (theta, vectors, residuals) = basis.ritz().ok_or_else(failed)?;
         let largest = theta.first().copied().unwrap_or(0.0);
         let good = |i: usize| residuals[i] <= TOLERANCE * theta[i] + ROUNDING * largest;
-        if theta.len() >= count && (0..count).all(good) && complete(structure, &theta[..count], sigma) {
+        if theta.len() >= count && (0..count).all(good) && complete(structure, &theta[..count], sigma, fastest_squared)
+        {
             return Ok((0..count).map(|i| basis.shape(vectors.column(i).iter().copied())).collect());
         }
         if next >= most && (grows || basis.vectors.len() >= n) {
@@ -192,11 +195,12 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
 }
 
 /// True if the shapes found include all modes slower than the last of them: by Sylvester's law of
-/// inertia, K − μM has as many negative pivots as there are modes below μ.
-fn complete(structure: &Structure, theta: &[f64], sigma: f64) -> bool {
+/// inertia, K − μM has as many negative pivots as there are modes below μ, which stands off the last
+/// ω² by more than the rounding of the pivots.
+fn complete(structure: &Structure, theta: &[f64], sigma: f64, fastest_squared: f64) -> bool {
     let lambda: Vec<f64> = theta.iter().map(|theta| 1.0 / theta - sigma).collect();
     let Some(&last) = lambda.last() else { return false };
-    let mu = last - 1e-7 * last.abs().max(1e-3 * sigma);
+    let mu = last - (1e-7 * last.abs().max(1e-3 * sigma)).max(PIVOTS * fastest_squared);
     // All are rigid-body motions: below them there is only rounding.
     if mu <= 1e-3 * sigma {
         return true;

@@ -14,7 +14,7 @@
 //! start and at those of a step of Euler's method, of which the mean counts. A step makes no gap
 //! more than half as large again, and is halved where Heun's gap differs from Euler's by more than
 //! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
-//! of the windows.
+//! of the windows: that of the histories, or of a single one by the intervals of its work rates.
 //!
 //! Histories end together: where the deepest depth over all of them is the wall of the tube, or its
 //! radius where the wall is not known, or with the service. That depth is the largest of the means
@@ -139,7 +139,8 @@ impl WearPlan<'_> {
                 let ahead = advanced(&work, &rates.found, &rates.found, step);
                 let then = self.rates(&ahead, &mut found, kept, keep)?;
                 let corrected = advanced(&work, &rates.found, &then.found, step);
-                if step <= shortest || self.agree(&ahead, &corrected) {
+                let widest = advanced(&work, &rates.largest, &then.largest, step);
+                if step <= shortest || self.agree(&ahead, &corrected, &widest) {
                     step = self.intact(&work, (&rates.found, &then.found), step);
                     let after = advanced(&work, &rates.found, &then.found, step);
                     largest = advanced(&largest, &rates.largest, &then.largest, step);
@@ -275,15 +276,15 @@ impl WearPlan<'_> {
     }
 
     /// True if gaps and centres after the work of Euler's and of Heun's step agree, or differ by no
-    /// more than they scatter.
-    fn agree(&self, euler: &Works, heun: &Works) -> bool {
+    /// more than they scatter: of a single history by the work with the largest rates, `widest`.
+    fn agree(&self, euler: &Works, heun: &Works, widest: &Works) -> bool {
         self.supports.iter().enumerate().all(|(index, support)| {
             // Of each history the gaps, then the place of the centre.
             let shapes = |works: &Works| -> Vec<Vec<f64>> {
                 let shape = |work: &WearWork| [support.gaps_after(work), support.opening(work).shift.to_vec()].concat();
                 works.iter().filter_map(|history| history.get(index)).map(shape).collect()
             };
-            let (euler, heun) = (shapes(euler), shapes(heun));
+            let (euler, heun, widest) = (shapes(euler), shapes(heun), shapes(widest));
             let walls = support.gaps.len();
             (0..walls + 2).all(|part| {
                 let of = |shape: &Vec<f64>, part: usize| shape.get(part).copied().unwrap_or(0.0);
@@ -292,7 +293,11 @@ impl WearPlan<'_> {
                 let differences: Vec<f64> =
                     euler.iter().zip(&heun).map(|(euler, heun)| of(heun, part) - of(euler, part)).collect();
                 let (difference, _, half_width) = mean_of(&differences);
-                difference.abs() <= half_width.unwrap_or(0.0).max(TOLERANCE * mean_of(&gaps).0)
+                let by_rates =
+                    || widest.iter().zip(&heun).map(|(widest, heun)| (of(widest, part) - of(heun, part)).abs());
+                let scatter = half_width.or_else(|| by_rates().next()).unwrap_or(0.0);
+                // A scatter that is not known is NaN.
+                difference.abs() <= scatter.max(TOLERANCE * mean_of(&gaps).0)
             })
         })
     }
