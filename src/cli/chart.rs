@@ -50,7 +50,7 @@ pub struct Args {
     #[arg(long, value_name = "COARSE:FINE")]
     steps: Option<String>,
     /// Most steps tried in that range; each is finer than the last by a power of two
-    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     levels: u32,
     /// Methods to chart [default: all that have a rule for the walls, every penalty of the
     /// case with every integrator]

@@ -34,10 +34,11 @@ const HELD: f64 = 1e-13;
 ///
 /// ½ qᵀK q − fᵀq + Σ k s²/2
 ///
-/// over all rigid walls and holes, with the depth s in each elastic one; the energy is k sⁿ⁺¹/(n +
-/// 1) where the force grows with the depth to the power n, by Newton's method: each programme has
-/// the tangent of that force at the depth found by the one before. A wall or hole that the free
-/// shape would pass carries preload from the start. Friction is left out.
+/// over all rigid walls and holes, with the depth s in each elastic one. Where the force grows with
+/// the depth to the power n the energy is the integral of that force, and the programmes are those
+/// of Newton's method: each has the tangent of that force at the depth found by the one before. A
+/// wall or hole that the free shape would pass carries preload from the start. Friction is left
+/// out.
 ///
 /// K may leave motions free, as those of a body without springs. So the programmes add ½σ ‖q − q′‖²
 /// in the metric of M, with the answer q′ of the programme before (Rockafellar 1976,

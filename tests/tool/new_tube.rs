@@ -71,3 +71,11 @@ fn values_that_make_no_tube_are_refused_by_name() {
     }
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
 }
+
+/// A tube that is a thousand times as long as its elements has slowest modes of 1e-12 of the
+/// fastest ω²: the count of the modes below them is one of rounding.
+#[test]
+fn a_tube_of_many_supports_over_its_usual_length_is_found_its_modes() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["new", "tube", "--supports", "20"], 0);
+}

@@ -129,7 +129,7 @@ impl<'r, C: Followed> Net<'r, C> {
     /// `depth` switches lead.
     fn against(&self, special: usize, depth: u32) -> Option<String> {
         if self.request.switch == Switch::Stable && !self.stable_beside(special) {
-            return Some("no orbit beside it is stable".to_owned());
+            return Some("no orbit of its own branch beside it is stable".to_owned());
         }
         let most = self.request.depth;
         (depth >= most).then(|| format!("it is more switches from the first branch than were asked for: {}", depth + 1))

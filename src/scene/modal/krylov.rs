@@ -195,8 +195,8 @@ pub(super) fn lowest(structure: &Structure, count: usize) -> Result<Vec<Vec<f64>
 }
 
 /// True if the shapes found include all modes slower than the last of them: by Sylvester's law of
-/// inertia, K − μM has as many negative pivots as there are modes below μ, which stands off the last
-/// ω² by more than the rounding of the pivots.
+/// inertia, K − μM has as many negative pivots as there are modes below μ, which stands off the
+/// last ω² by more than the rounding of the pivots.
 fn complete(structure: &Structure, theta: &[f64], sigma: f64, fastest_squared: f64) -> bool {
     let lambda: Vec<f64> = theta.iter().map(|theta| 1.0 / theta - sigma).collect();
     let Some(&last) = lambda.last() else { return false };

@@ -99,7 +99,8 @@ impl<'a> Course<'a> {
     /// True at a time from which on it is `limit` or more, or the tube is cut in two.
     fn is_beyond(&self, time: f64, limit: f64) -> bool {
         let known = self.work(time).iter().all(|work| work.total.is_finite());
-        known && !(self.at(time).0 < limit)
+        let value = self.at(time).0;
+        known && (value >= limit || value.is_nan())
     }
 
     /// The time at which it reaches `limit` between the windows, s.

@@ -17,7 +17,7 @@ pub struct WearState {
     /// The depth worn off the tube where it is deepest, m: in a sector of a round support, or at
     /// one of the flats, and no deeper than `depth_one_scar_m`; NaN where that would cut the tube
     /// in two. Of one history under random loads it is an upper figure: the part that is the
-    /// deepest by chance counts. [`mean`] has less of that.
+    /// deepest by chance counts. [`mean`](super::mean) has less of that.
     pub depth_deepest_m: f64,
     /// The depth worn off the tube, evenly all round, m.
     pub depth_all_round_m: f64,

@@ -102,7 +102,7 @@ function spectrumOfModes({ columns, rows }, looks) {
     // Hann's window smears over two frequencies on either side.
     const smeared = 2 * (columns.frequency_Hz[own[1]] - columns.frequency_Hz[own[0]]);
     told.textContent =
-      "The random force on a mode, scaled to a largest displacement of 1 along the tube: as asked for, and " +
+      "The random force on a mode, scaled to a largest displacement of 1 along the field's stretch: as asked for, and " +
       "recovered by Welch's method from the force that the run applied. The estimate at a frequency scatters " +
       `about what was asked by up to ${digits(100 * share, 2)} % (the band: one standard deviation), less where ` +
       `few random phases make the force${smeared > 0 ? `, and is smeared over ± ${digits(smeared, 3)} Hz` : ""}.`;

@@ -14,9 +14,11 @@ function nameAndUnit(column) {
 }
 
 /** An axis with its range: "frequency from 4 to 5.5 Hz, 301 values". */
-function axisInWords({ column, count }, columns) {
+function axisInWords({ column }, columns) {
   const [name, unit] = nameAndUnit(column);
   const values = Array.isArray(columns[column]) ? undefined : extent(columns[column]);
+  // Of a random design each row has one of its own.
+  const count = new Set(columns[column]).size;
   const number = `${count} value${count === 1 ? "" : "s"}`;
   const range = values && values[1] > values[0] ? ` from ${digits(values[0])} to ${digits(values[1])}${unit}` : "";
   return `${name}${range}, ${number}`;
