@@ -251,14 +251,15 @@ impl Forces {
         supports.iter_mut().for_each(|support| support.close(batch, length, impulse));
     }
 
-    /// The `contacts`, each of which that began before the window and lasts into it with its
-    /// largest force in the window.
+    /// The `contacts`, each of which at an elastic wall that began before the window and lasts into
+    /// it with its largest force in the window. At a rigid wall that force would be one of the
+    /// impacts elsewhere, which a contact tells from its own.
     pub(crate) fn in_window<'a>(&self, contacts: &'a [Contact]) -> Cow<'a, [Contact]> {
         let from = self.window.from;
         let largest = |contact: &Contact| {
             let lasts = contact.start < from && contact.end.is_none_or(|end| end > from);
-            let carried = self.walls.get(contact.wall).filter(|_| lasts && contact.peak_force.is_some())?.carried;
-            (carried.largest > 0.0).then_some(carried.largest)
+            let tally = self.walls.get(contact.wall).filter(|tally| lasts && !tally.rigid)?;
+            (tally.carried.largest > 0.0).then_some(tally.carried.largest)
         };
         if contacts.iter().all(|contact| largest(contact).is_none()) {
             return Cow::Borrowed(contacts);

@@ -100,9 +100,9 @@ pub struct WallStatistics {
     /// of those in which it is finite.
     #[serde(default)]
     pub force_largest: Option<LargestForce>,
-    /// Largest |force| in the window of each episode that overlaps it and whose force is finite, N:
-    /// at an elastic wall, or in a lasting contact on a rigid one. The mean is over episodes.
-    /// [`Statistics::new`], which knows the contacts alone, has the largest of the whole episode.
+    /// Largest |force| of each episode that overlaps the window and whose force is finite, N: at an
+    /// elastic wall that in the window, in a lasting contact on a rigid one that of the whole
+    /// episode, as both where the contacts alone are known. The mean is over episodes.
     pub episode_peak_force_n: Summary,
     /// |impulse| of each episode that began in the window, N s.
     pub episode_impulse_n_s: Summary,
