@@ -2,8 +2,9 @@
 
 use crate::common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, spring};
 use crate::rubbing::{body, isotropic, with_flats};
+use signorini::linear::Symmetric;
 use signorini::residual::Energy;
-use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Wall, run};
+use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Structure, Wall, run};
 
 /// E at the start, at the end and the largest; work of loads, damping, impacts, dashpots, friction;
 /// and what was exchanged, J.
@@ -189,5 +190,28 @@ fn a_staggered_scheme_keeps_the_energy_of_half_steps_from_the_first_on() {
             assert!(e.residual < 1e-14 && (e.final_j / e.initial_j - 1.0).abs() < 1e-14, "{scheme}, h = {h}: {e:?}");
             assert_eq!(made.findings, [], "{scheme}, h = {h}");
         }
+    }
+}
+
+/// A ball that falls from 1 m has m g h as it strikes, more than at any other time; so do two that
+/// fall side by side.
+#[test]
+fn the_largest_energy_of_exact_motion_is_that_at_the_impact() {
+    let one = Scene::oscillator(2.0, 0.0, 0.0);
+    let two = Scene::structure(Structure {
+        mass: Symmetric::diagonal(&[1.0, 1.0]),
+        damping: Symmetric::zeros(2),
+        stiffness: Symmetric::zeros(2),
+    });
+    for scene in [one, two] {
+        let n = scene.initial.q.len();
+        let loads = (0..n).map(|i| Load { at: Row::dof(i), ..Load::constant(-9.81 * 2.0 / n as f64) });
+        let floors = (0..n).map(|i| Wall::lower(["left", "right"][i], 0.0).at(Row::dof(i)).with_restitution(0.5));
+        let scene = Scene { loads: loads.collect(), walls: floors.collect(), ..scene };
+        let scene = scene.with_initial(&vec![1.0; n], &vec![0.0; n]).with_duration(0.6);
+        let run = run(&scene, &Scheme::Event, &Options::with_step(1e-3)).unwrap();
+        let largest = run.residuals.energy.largest_j;
+        // Rounding of the instant.
+        assert!((largest / (2.0 * 9.81) - 1.0).abs() < 1e-13, "{n}: {largest}");
     }
 }

@@ -142,7 +142,10 @@ impl Ledger {
         }
         let walls = self.store(step, &mut flows);
         let (q, v) = (first(step.q), first(step.v));
-        self.book(0.5 * (mass * v * v + stiffness * q * q) + walls, flows);
+        let energy = |v: f64| 0.5 * (mass * v * v + stiffness * q * q) + walls;
+        // A body is fastest as it strikes.
+        self.reach(energy(v_end.abs().max(mid.abs())));
+        self.book(energy(v), flows);
         open
     }
 }

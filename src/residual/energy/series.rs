@@ -60,6 +60,9 @@ impl Ledger {
                 flows.friction -= 0.5 * (rub[0] * (before[0] + after[0]) + rub[1] * (before[1] + after[1]));
             }
         }
+        if step.jump.iter().any(|jump| *jump != 0.0) {
+            self.reach(self.scene.system.energy(step.q, mid) + walls);
+        }
         self.book(self.scene.system.energy(step.q, step.v) + walls, flows);
     }
 }
