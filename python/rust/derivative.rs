@@ -123,7 +123,7 @@ pub fn _case_value_at(case: &Case, key: &str) -> PyResult<f64> {
     let value = case.file.get(&parsed).map_err(raise)?;
     value
         .and_then(|value| value.number())
-        .ok_or_else(|| wrong(key, "left out, or no number", "a key at which the case file has a number"))
+        .ok_or_else(|| wrong(key, "left out, no number, or several that differ", "a key at which the case file has a number"))
 }
 
 /// The scene of a case file with other numbers at keys.

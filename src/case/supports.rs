@@ -132,7 +132,7 @@ impl Builder<'_> {
         }
         if self.static_correction {
             let help = "expected shape = \"flats\", or no static_correction: the compliance that modes leave out \
-                        makes a wall a spring, and a round hole is rigid";
+                        makes a flat softer, which is not done for a round hole";
             let title = format!("{} is round, and static_correction is true", owner.name);
             return Err(self.source.error(support.required_word("shape").span(), &title, help));
         }
