@@ -121,9 +121,9 @@ pub fn _case_value_at(case: &Case, key: &str) -> PyResult<f64> {
         return Err(wrong(key, "a whole number", "a key that can change by any small amount"));
     }
     let value = case.file.get(&parsed).map_err(raise)?;
-    value
-        .and_then(|value| value.number())
-        .ok_or_else(|| wrong(key, "left out, no number, or several that differ", "a key at which the case file has a number"))
+    value.and_then(|value| value.number()).ok_or_else(|| {
+        wrong(key, "left out, no number, or several that differ", "a key at which the case file has a number")
+    })
 }
 
 /// The scene of a case file with other numbers at keys.

@@ -36,7 +36,11 @@ impl Case {
             // A name that nothing in the file has says so.
             self.document.clone().set(key, &1.0.into())?;
             let expected = "a key that has a number in the case file or by default";
-            return Err(Error::invalid(format!("derivative by {name}"), "left out, no number, or several that differ", expected));
+            return Err(Error::invalid(
+                format!("derivative by {name}"),
+                "left out, no number, or several that differ",
+                expected,
+            ));
         };
         SceneTangent::new(&name, value, |x| {
             let mut document = self.document.clone();
