@@ -2,8 +2,11 @@
 
 use super::beam::elements_of_modes;
 use super::{Case, Model, Origin, SupportShape, Truncated, WallsOverBase};
+use crate::error::amount;
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
+use serde_json::Value;
+use std::iter;
 
 /// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
@@ -11,6 +14,9 @@ const WORTH_SAYING: f64 = 1e-2;
 /// Least and largest wear coefficient, 1/Pa, of the tables that go with code_aster.
 const LEAST_COEFFICIENT: f64 = 1e-17;
 const MOST_COEFFICIENT: f64 = 1e-12;
+
+/// A damping ratio beyond this is no usual one.
+const MOST_RATIO: f64 = 0.5;
 
 impl Case {
     /// The notes of the case, in sentences: what condensation and the reduction to modes changed.
@@ -20,6 +26,7 @@ impl Case {
         notes.extend(self.cut_notes());
         notes.extend(self.open_supports());
         notes.extend(self.odd_coefficients());
+        notes.extend(self.odd_ratio());
         notes.extend(self.start_note());
         notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
@@ -71,6 +78,22 @@ impl Case {
         Some(format!(
             "the wear coefficient {odd:e} 1/Pa lies outside of what is measured for metals, {LEAST_COEFFICIENT:e} to \
              {MOST_COEFFICIENT:e} 1/Pa: mind the unit (1/Pa = m²/N)"
+        ))
+    }
+
+    /// A damping ratio that is more likely meant in per cent.
+    fn odd_ratio(&self) -> Option<String> {
+        let document = self.document.json().ok()?;
+        let bodies = document["body"].as_array().into_iter().flatten();
+        let ratios = iter::once(&document["system"]).chain(bodies).flat_map(|table| {
+            let [one, lists] = [&table["damping"]["ratio"], &table["damping"]["ratios"]];
+            let lists = [lists, &table["modal"]["damping_ratios"]].map(|list| list.as_array().into_iter().flatten());
+            iter::once(one).chain(lists.into_iter().flatten()).filter_map(Value::as_f64)
+        });
+        let odd = ratios.into_iter().find(|ratio| *ratio > MOST_RATIO)?;
+        Some(format!(
+            "a damping ratio of {odd} is {} % of the critical damping: ratios are shares, 0.01 for 1 %",
+            amount(100.0 * odd, 3)
         ))
     }
 

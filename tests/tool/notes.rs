@@ -336,3 +336,21 @@ fn a_support_that_is_never_touched_is_said_where_others_are() {
     let pad = signorini::case::Embedded::named("dry-friction-damper").unwrap().case().unwrap();
     assert!(!notes(&pad.scene, &Scheme::Located, 1e-3).contains("no contact"));
 }
+
+/// Ratios in per cent are most likely a slip: they damp out what the case is about.
+#[test]
+fn a_damping_ratio_in_per_cent_has_a_note() {
+    let beam = "[system.beam]\nlength = 1.0\nyoungs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 0.02\n\
+                inner_diameter = 0.0\nleft = \"pinned\"\nright = \"pinned\"\nelements = 10\n[system]\nmodes = 2\n\
+                [[load]]\nat = { position = 0.5 }\nconstant = { force = 1.0 }\n[time]\nend = 0.1\nstep = 1e-5\n\
+                [system.damping]\n";
+    for (damping, percent) in
+        [("ratio = 0.01", None), ("ratio = 1.5", Some("150 %")), ("ratios = [0.01, 5.0]", Some("500 %"))]
+    {
+        let text = format!("{beam}{damping}\n");
+        let case = signorini::case::CaseFile::from_text(&text, "beam.toml", ".").case().unwrap();
+        let odd: Vec<String> = case.notes().into_iter().filter(|note| note.contains("damping ratio")).collect();
+        assert_eq!(odd.len(), usize::from(percent.is_some()), "{odd:?}");
+        assert!(percent.is_none_or(|percent| odd[0].contains(percent)), "{odd:?}");
+    }
+}
