@@ -64,9 +64,9 @@ pub struct Args {
     /// Most histories of --until-interval; exit code 1 where more are needed [default: 200]
     #[arg(long, value_name = "N", requires = "until_interval")]
     most_seeds: Option<u64>,
-    /// Most time of --until-interval: 10min, 90s. Six first runs say how many histories, of some
-    /// seven runs each, fit into it on this machine; exit code 1 where that are fewer than the
-    /// interval needs. Histories with such a limit begin anew after an interruption
+    /// Most time of --until-interval: 10min, 90s. Six first runs, made in any case, say how many
+    /// histories, of some seven runs each, fit into it on this machine; exit code 1 where that are
+    /// fewer than the interval needs. Histories with such a limit begin anew after an interruption
     #[arg(long, value_name = "TIME", requires = "until_interval", allow_hyphen_values = true)]
     most_time: Option<String>,
     /// With --until-interval: do not repeat up to six of the first runs with half the step, nor

@@ -27,7 +27,7 @@ pub struct Seeds {
     pub(in crate::cli) most_seeds: Option<u64>,
     /// Most time of --until-interval: 10min, 90s. The pilots say how many realisations, with the
     /// checks for their errors, fit into it on this machine; exit code 1 where that are fewer than
-    /// the interval needs
+    /// the interval needs. The pilots run in any case
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(in crate::cli) most_time: Option<String>,
 }
