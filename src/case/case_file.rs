@@ -181,7 +181,7 @@ impl CaseFile {
     }
 
     /// Its values, with the changes made so far.
-    fn table(&self) -> Result<toml::Table> {
+    pub(super) fn table(&self) -> Result<toml::Table> {
         if let Some(table) = &self.changed {
             return Ok(table.clone());
         }

@@ -5,8 +5,7 @@ use super::{Case, Model, Origin, SupportShape, Truncated, WallsOverBase};
 use crate::error::amount;
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
-use serde_json::Value;
-use std::iter;
+use toml::Value;
 
 /// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
@@ -83,14 +82,17 @@ impl Case {
 
     /// A damping ratio that is more likely meant in per cent.
     fn odd_ratio(&self) -> Option<String> {
-        let document = self.document.json().ok()?;
-        let bodies = document["body"].as_array().into_iter().flatten();
-        let ratios = iter::once(&document["system"]).chain(bodies).flat_map(|table| {
-            let [one, lists] = [&table["damping"]["ratio"], &table["damping"]["ratios"]];
-            let lists = [lists, &table["modal"]["damping_ratios"]].map(|list| list.as_array().into_iter().flatten());
-            iter::once(one).chain(lists.into_iter().flatten()).filter_map(Value::as_f64)
-        });
-        let odd = ratios.into_iter().find(|ratio| *ratio > MOST_RATIO)?;
+        let document = self.document.table().ok()?;
+        let bodies = document.get("body").and_then(Value::as_array).into_iter().flatten();
+        let tables = document.get("system").into_iter().chain(bodies);
+        let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|x| x as f64));
+        let numbers = |table: &Value, part: &str, key: &str| match table.get(part).and_then(|part| part.get(key)) {
+            Some(Value::Array(list)) => list.iter().filter_map(number).collect(),
+            one => one.and_then(number).map_or(Vec::new(), |ratio| vec![ratio]),
+        };
+        let keys = [("damping", "ratio"), ("damping", "ratios"), ("modal", "damping_ratios")];
+        let mut ratios = tables.flat_map(|table| keys.map(|(part, key)| numbers(table, part, key)).concat());
+        let odd = ratios.find(|ratio| *ratio > MOST_RATIO)?;
         Some(format!(
             "a damping ratio of {odd} is {} % of the critical damping: ratios are shares, 0.01 for 1 %",
             amount(100.0 * odd, 3)
