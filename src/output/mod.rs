@@ -41,7 +41,7 @@
 //! | [`pictures`] | the figures of one or several runs |
 //! | `labelled`, `motion`, `window` | a run that is drawn, its motion, and the stretch of it |
 //! | `orbit`, `ring`, `rubbed` | its way between supports, and the supports over time |
-//! | `site`, `places`, `part`, `colours` | walls and supports: their results, which fit on a page, which are drawn together, and in which colour |
+//! | `places`, `part`, `colours` | walls and supports: which fit on a page, which are drawn together, and in which colour |
 //! | [`stability`] | tables and maps of a stability study |
 //! | `stable_steps` | the largest stable step of each scheme, and the conclusion of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |

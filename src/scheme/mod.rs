@@ -15,7 +15,7 @@
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
 //! | `supports/`, `disks/` | scenes with round holes and friction |
-//! | `equilibrium.rs` | the static start |
+//! | `equilibrium.rs`, `static_programme.rs` | the static start, and the programme that it solves |
 //! | `handover.rs` | stretches that the exact scheme leaves to moreau-jean |
 //! | `counters.rs` | the work of a run |
 //! | `frame.rs` | the state, and the results of a step |
@@ -66,6 +66,7 @@ mod rule;
 mod space;
 mod staggered;
 mod start;
+mod static_programme;
 mod stepper;
 mod structure_event;
 mod supports;

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ._core import ResultWarning, RunError, Scene
 from ._derivative import Derivative, Keys, Source, found, resolved
-from ._types import Array, known
+from ._types import Array, check_within, known
 from ._types import times as checked_times
 
 _OF_CONTACTS = ("start", "approach_speed", "impulse")
@@ -164,10 +164,8 @@ def _contact_columns(
         least = _OPPOSITE * errors["approach_speed"] if error is not None else np.zeros(count)
         for speed in columns["approach_speed"][columns["approach_speed"] < -least]:
             raise ValueError(f"data: approach_speed is {speed:g} m/s; expected 0 or more, as in run.contacts")
-    for start in columns.get("start", np.empty(0)):
-        if not 0.0 <= start <= scene.duration:
-            expected = f"times from 0 to the end of the motion, {scene.duration:g} s"
-            raise ValueError(f"data: start has {start:g} s; expected {expected}")
+    if "start" in columns:
+        check_within("data: start", columns["start"], scene.duration)
     number = [wall[:i].count(name) for i, name in enumerate(wall)]
     for name in set(wall) if "start" in columns else ():
         own = columns["start"][[one == name for one in wall]]

@@ -100,14 +100,19 @@ def known(name: str, given: Mapping[str, Any] | None, keys: Iterable[str]) -> di
     return dict(given or {})
 
 
+def check_within(name: str, column: Array, end: float) -> None:
+    """Refuses times, in s, before 0 or after ``end``."""
+    beyond = column[(column < 0.0) | (column > end * (1.0 + 1e-12))]
+    if beyond.size:
+        raise ValueError(f"{name} has {beyond[0]:g} s; expected times from 0 to the end of the motion, {end:g} s")
+
+
 def times(name: str, values: Any, end: float) -> Array:
     """``values`` as times, unless some are before 0 or after ``end``, or one is not after the last."""
     column = np.atleast_1d(np.asarray(values, np.float64))
     if column.ndim != 1 or not np.isfinite(column).all():
         raise ValueError(f"{name}: expected a column of finite times, in s")
-    beyond = column[(column < 0.0) | (column > end * (1.0 + 1e-12))]
-    if beyond.size:
-        raise ValueError(f"{name} has {beyond[0]:g} s; expected times from 0 to the end of the motion, {end:g} s")
+    check_within(name, column, end)
     if (np.diff(column) <= 0.0).any():
         raise ValueError(f"{name} does not increase: {column[int(np.argmin(np.diff(column))) + 1]:g} s comes too late")
     return column

@@ -15,7 +15,7 @@ use crate::wear::WearWork;
 const HALVINGS: usize = 50;
 
 /// Doublings of the time in service within which a limit is sought after its end.
-const DOUBLINGS: usize = 60;
+const DOUBLINGS: i32 = 60;
 
 /// Points stand between windows where a depth departs from the straight line by more than this
 /// share of its last value.
@@ -67,40 +67,47 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// The work at `time` (s), J: straight between the windows, and at the last rates after them.
-    fn work(&self, time: f64) -> Vec<WearWork> {
-        let next = self.points.partition_point(|point| point.time_s < time);
-        match (next.checked_sub(1).and_then(|before| self.points.get(before)), self.points.get(next)) {
-            (Some(before), Some(next)) => {
-                let share = (time - before.time_s) / (next.time_s - before.time_s);
-                let both = self.parts(&before.work).into_iter().zip(self.parts(&next.work));
-                both.map(|(before, next)| before.towards(next, share)).collect()
-            }
-            (Some(last), None) => {
-                let both = self.parts(&last.work).into_iter().zip(self.parts(&last.rates));
-                both.map(|(work, rate)| work.advanced(rate, rate, time - last.time_s)).collect()
-            }
-            (None, first) => first.map_or(Vec::new(), |first| self.parts(&first.work).into_iter().cloned().collect()),
-        }
+    /// The work at `time` (s), J, and the rates (W) at which it grows: straight between the
+    /// windows, and at the last rates after them.
+    fn accrued(&self, time: f64) -> Vec<(WearWork, f64)> {
+        let after = self.points.partition_point(|point| point.time_s < time);
+        let before = after.checked_sub(1).and_then(|before| self.points.get(before)).or(self.points.first());
+        let Some(before) = before else { return Vec::new() };
+        let own = self.parts(&before.work).into_iter().zip(self.parts(&before.rates));
+        let Some(next) = self.points.get(after) else {
+            let seconds = time - before.time_s;
+            return own.map(|(work, rate)| (work.advanced(rate, rate, seconds), rate.total)).collect();
+        };
+        let whole = next.time_s - before.time_s;
+        let share = if whole > 0.0 { (time - before.time_s) / whole } else { 0.0 };
+        let next = self.parts(&next.work).into_iter().zip(self.parts(&next.rates));
+        let towards = |((work, rate), (next, next_rate)): ((&WearWork, &WearWork), (&WearWork, &WearWork))| {
+            (work.towards(next, share), rate.total + share * (next_rate.total - rate.total))
+        };
+        own.zip(next).map(towards).collect()
     }
 
-    /// The quantity at `time` (s), and the half width of its 95 % interval over the histories.
-    fn at(&self, time: f64) -> (f64, Option<f64>) {
-        let work = self.work(time);
-        if self.quantity == WearQuantity::DepthDeepest && work.len() > 1 {
-            let deepest = Deepest::of(&work.iter().map(|work| self.support.depths(work)).collect::<Vec<_>>());
-            return (deepest.value, deepest.half_width_95);
+    /// The quantity at `time` (s), and the half width of its 95 % interval over the histories;
+    /// `None` where the work is not known.
+    fn at(&self, time: f64) -> Option<(f64, Option<f64>)> {
+        let accrued = self.accrued(time);
+        if accrued.is_empty() || accrued.iter().any(|(work, _)| !work.total.is_finite()) {
+            return None;
         }
-        let values: Vec<f64> = work.iter().map(|work| self.quantity.of(&self.support.state(work, f64::NAN))).collect();
+        if self.quantity == WearQuantity::DepthDeepest && accrued.len() > 1 {
+            let depths: Vec<_> = accrued.iter().map(|(work, _)| self.support.depths(work)).collect();
+            let deepest = Deepest::of(&depths);
+            return Some((deepest.value, deepest.half_width_95));
+        }
+        let state = |(work, rate): &(WearWork, f64)| self.support.state(work, *rate);
+        let values: Vec<f64> = accrued.iter().map(|accrued| self.quantity.of(&state(accrued))).collect();
         let (mean, _, half_width) = mean_of(&values);
-        (mean, half_width)
+        Some((mean, half_width))
     }
 
     /// True at a time from which on it is `limit` or more, or the tube is cut in two.
     fn is_beyond(&self, time: f64, limit: f64) -> bool {
-        let known = self.work(time).iter().all(|work| work.total.is_finite());
-        let value = self.at(time).0;
-        known && (value >= limit || value.is_nan())
+        self.at(time).is_some_and(|(value, _)| value >= limit || value.is_nan())
     }
 
     /// The time at which it reaches `limit` between the windows, s.
@@ -113,26 +120,19 @@ impl<'a> Course<'a> {
     /// The time at which it reaches `limit` after the last window, at the last rates, s; `None`
     /// where it has reached it, or does not grow.
     fn reaches_later(&self, limit: f64) -> Option<f64> {
-        let last = self.points.last()?;
-        if self.is_beyond(last.time_s, limit) {
+        let last = self.points.last()?.time_s;
+        if self.is_beyond(last, limit) {
             return None;
         }
-        let doubled = (1..=DOUBLINGS).map(|power| last.time_s * 2_f64.powi(power as i32));
-        let (mut before, mut found) = (last.time_s, None);
-        for time in doubled {
-            if self.is_beyond(time, limit) {
-                found = Some(reached_from([before, time], |time| self.is_beyond(time, limit)));
-                break;
-            }
-            before = time;
-        }
-        found
+        let mut doubled = (1..=DOUBLINGS).map(|power| last * 2_f64.powi(power));
+        let beyond = doubled.find(|time| self.is_beyond(*time, limit))?;
+        Some(reached_from([0.5 * beyond, beyond], |time| self.is_beyond(time, limit)))
     }
 
     /// The half width of a time at which its mean has the half width that it then has, s.
     fn half_width_of(&self, time: f64) -> Option<f64> {
-        let (value, half_width) = self.at(time);
-        let slope = (value - self.at((1.0 - SLOPE) * time).0) / (SLOPE * time);
+        let (value, half_width) = self.at(time)?;
+        let slope = (value - self.at((1.0 - SLOPE) * time)?.0) / (SLOPE * time);
         half_width.map(|half_width| (half_width / slope).abs()).filter(|half_width| half_width.is_finite())
     }
 }
@@ -152,8 +152,8 @@ impl WearHistories {
         quantity == WearQuantity::DepthDeepest && self.count() > 1
     }
 
-    /// When the mean over the histories of a depth or gap of a support reaches `limit` (m) within
-    /// the time in service; `None` where it does not.
+    /// When the mean over the histories of a quantity of a support, which grows, reaches `limit`
+    /// within the time in service; `None` where it does not.
     #[must_use]
     pub fn reaches(&self, support: usize, limit: f64, quantity: WearQuantity) -> Option<TimeOfLimit> {
         let course = self.course(support, quantity, Of::Mean)?;
