@@ -306,6 +306,8 @@ mod tests {
             let (depth_then, half_width) = super::mean(&one.points[1], 0, quantity);
             assert!((depth_then - 1e-4).abs() < 1e-15 && (half_width.unwrap() - 1e-5).abs() < 1e-15);
         }
+        // A work rate that stays is no number that is not known.
+        assert!(one.reaches(0, f64::MAX, WearQuantity::WorkRate).is_none());
         // One that does not grow never reaches it, and nothing is told of their mean.
         assert_eq!(later(histories(&[0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)), "");
     }
