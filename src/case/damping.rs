@@ -68,7 +68,7 @@ impl Builder<'_> {
             return Ok(Damping::Rayleigh { mass: coefficient("mass")?, stiffness: coefficient("stiffness")? });
         }
         if let Some(ratio) = damping.number("ratio") {
-            return Ok(Damping::Modal(vec![self.nonnegative(&format!("{key}.ratio"), &ratio)?]));
+            return Ok(self.modal_damping(vec![self.nonnegative(&format!("{key}.ratio"), &ratio)?]));
         }
         if let Some(ratios) = damping.numbers("ratios") {
             if ratios.get_ref().is_empty() {
@@ -81,7 +81,7 @@ impl Builder<'_> {
                 self.positions.push((subject.clone().value(i), ratio.span()));
                 all.push(self.above_minus_one(&format!("{key}.ratios"), ratio)?);
             }
-            return Ok(Damping::Modal(all));
+            return Ok(self.modal_damping(all));
         }
         match damping.word("matrix") {
             Some(file) => {
@@ -90,6 +90,18 @@ impl Builder<'_> {
             }
             None => Err(self.source.error(damping.span.clone(), &format!("`{key}` has no kind of damping"), help)),
         }
+    }
+
+    /// Damping by the ratios of modes, which it notes.
+    fn modal_damping(&mut self, ratios: Vec<f64>) -> Damping {
+        self.note_ratios(&ratios);
+        Damping::Modal(ratios)
+    }
+
+    /// Notes damping ratios that the file gives.
+    pub fn note_ratios(&mut self, ratios: &[f64]) {
+        let all = ratios.iter().copied().chain(self.written.damping_ratio);
+        self.written.damping_ratio = all.reduce(f64::max);
     }
 
     fn above_minus_one(&self, key: &str, value: &Spanned<f64>) -> Result<f64> {

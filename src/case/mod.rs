@@ -27,7 +27,7 @@
 //! `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and `wear.rs`
 //! give the scenes of realisations and of worn supports, `wording.rs` finds the key of each value
 //! of the scene, `written.rs` keeps what the scene itself no longer shows, `notes.rs` says what
-//! readers of a run must know; `case_file.rs` is the document that a case keeps, `key.rs` the path
+//! readers of a run must know, `units.rs` which values are more likely meant in another unit; `case_file.rs` is the document that a case keeps, `key.rs` the path
 //! of a value, by which it is changed to a `key_value.rs` before it is built (`changes.rs`, many
 //! times by `template.rs`), `tangent.rs` differentiates the scene by a key, `summary.rs` reads the
 //! case of a finished run (feature `case`).
@@ -82,6 +82,7 @@ mod text;
 mod time;
 mod truncated;
 mod turbulence;
+mod units;
 mod value;
 mod walls;
 mod wear;

@@ -48,6 +48,7 @@ impl Builder<'_> {
         let k = omega.len();
         let masses = self.of_modes("masses", modal.get("masses"), 1.0, k)?;
         let ratios = self.of_modes("damping_ratios", modal.get("damping_ratios"), 0.0, k)?;
+        self.note_ratios(&ratios);
         let points = match modal.get("shapes") {
             None => Vec::new(),
             Some(shapes) => self.shapes(shapes, k)?,

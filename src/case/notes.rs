@@ -2,20 +2,11 @@
 
 use super::beam::elements_of_modes;
 use super::{Case, Model, Origin, SupportShape, Truncated, WallsOverBase};
-use crate::error::amount;
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
-use toml::Value;
 
 /// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
-
-/// Least and largest wear coefficient, 1/Pa, of the tables that go with code_aster.
-const LEAST_COEFFICIENT: f64 = 1e-17;
-const MOST_COEFFICIENT: f64 = 1e-12;
-
-/// A damping ratio beyond this is no usual one.
-const MOST_RATIO: f64 = 0.5;
 
 impl Case {
     /// The notes of the case, in sentences: what condensation and the reduction to modes changed.
@@ -24,8 +15,7 @@ impl Case {
         let mut notes = self.condensed();
         notes.extend(self.cut_notes());
         notes.extend(self.open_supports());
-        notes.extend(self.odd_coefficients());
-        notes.extend(self.odd_ratio());
+        notes.extend(self.unusual_values());
         notes.extend(self.start_note());
         notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
@@ -67,36 +57,6 @@ impl Case {
             };
             Some(format!("the flats of support {:?} {said}", flats.name))
         })
-    }
-
-    /// Wear coefficients beyond those of metals in water or air.
-    fn odd_coefficients(&self) -> Option<String> {
-        let own = self.written.supports.iter().flat_map(|s| [s.wear.coefficient, s.wear.support_coefficient]);
-        let mut all = own.chain([self.wear.coefficient, self.wear.support_coefficient]).flatten();
-        let odd = all.find(|k| !(LEAST_COEFFICIENT..=MOST_COEFFICIENT).contains(k))?;
-        Some(format!(
-            "the wear coefficient {odd:e} 1/Pa lies outside of what is measured for metals, {LEAST_COEFFICIENT:e} to \
-             {MOST_COEFFICIENT:e} 1/Pa: mind the unit (1/Pa = m²/N)"
-        ))
-    }
-
-    /// A damping ratio that is more likely meant in per cent.
-    fn odd_ratio(&self) -> Option<String> {
-        let document = self.document.table().ok()?;
-        let bodies = document.get("body").and_then(Value::as_array).into_iter().flatten();
-        let tables = document.get("system").into_iter().chain(bodies);
-        let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|x| x as f64));
-        let numbers = |table: &Value, part: &str, key: &str| match table.get(part).and_then(|part| part.get(key)) {
-            Some(Value::Array(list)) => list.iter().filter_map(number).collect(),
-            one => one.and_then(number).map_or(Vec::new(), |ratio| vec![ratio]),
-        };
-        let keys = [("damping", "ratio"), ("damping", "ratios"), ("modal", "damping_ratios")];
-        let mut ratios = tables.flat_map(|table| keys.map(|(part, key)| numbers(table, part, key)).concat());
-        let odd = ratios.find(|ratio| *ratio > MOST_RATIO)?;
-        Some(format!(
-            "a damping ratio of {odd} is {} % of the critical damping: ratios are shares, 0.01 for 1 %",
-            amount(100.0 * odd, 3)
-        ))
     }
 
     /// The degrees of freedom that were condensed, and the walls that this affected.

@@ -31,6 +31,8 @@ pub struct Written {
     /// Where the points of matrices and modes lie, of the system or of bodies; of those whose place
     /// is not stated there is none.
     pub lines: Vec<Line>,
+    /// The largest damping ratio that the file gives.
+    pub damping_ratio: Option<f64>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
 }

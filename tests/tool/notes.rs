@@ -354,3 +354,36 @@ fn a_damping_ratio_in_per_cent_has_a_note() {
         assert!(percent.is_none_or(|percent| odd[0].contains(percent)), "{odd:?}");
     }
 }
+
+/// Sizes in mm, moduli in GPa or MPa, densities in t/m³, gaps of metres and correlation lengths
+/// beyond the tube are most likely slips.
+#[test]
+fn values_of_a_beam_in_other_units_have_a_note() {
+    let said = |edits: &[(&str, &str)]| {
+        let mut text = signorini::case::Embedded::named("tube-in-cross-flow").unwrap().text.to_owned();
+        for (from, to) in edits {
+            assert!(text.contains(from), "{from}");
+            text = text.replace(from, to);
+        }
+        let case = signorini::case::CaseFile::from_text(&text, "tube.toml", ".").case().unwrap();
+        case.notes().into_iter().filter(|note| note.contains("mind the unit")).collect::<Vec<_>>()
+    };
+    assert_eq!(said(&[]), [""; 0]);
+    let millimetres = [
+        ("outer_diameter = 19.05e-3", "outer_diameter = 19.05"),
+        ("inner_diameter = 15.75e-3", "inner_diameter = 15.75"),
+    ];
+    let one: [(&[(&str, &str)], &str); 6] = [
+        (&[("youngs_modulus = 200e9", "youngs_modulus = 200e3")], "a Young's modulus of 2e5 Pa is none of a solid"),
+        (&[("density = 7850.0 ", "density = 7.85e-9 ")], "a density of 7.85e-9 kg/m³ is none of a solid"),
+        (&millimetres, "a beam 19.05 m wide and 3.0 m long"),
+        (&millimetres[..1], "a beam 19.05 m wide and 3.0 m long"),
+        (&[("gap = 0.2e-3", "gap = 0.2")], "the wall \"plate-1\" stands 0.2 m"),
+        (&[("correlation_length = 0.06 ", "correlation_length = 60.0 ")], "turbulence 1: its correlation length of 60"),
+    ];
+    for (edits, expected) in one {
+        let notes = said(edits);
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        assert!(notes[0].starts_with(expected), "{notes:?}");
+    }
+}

@@ -1,0 +1,124 @@
+//! Notes on values that are more likely meant in another unit: a run of them is correct and useless.
+
+use super::{Case, Model};
+use crate::error::amount;
+use crate::scene::{Beam, BeamSection, Face};
+
+/// Least and largest wear coefficient, 1/Pa, of the tables that go with code_aster.
+const COEFFICIENTS: [f64; 2] = [1e-17, 1e-12];
+
+/// A damping ratio beyond this is no usual one.
+const MOST_RATIO: f64 = 0.5;
+
+/// Young's moduli of solids, Pa: from rubber to beyond diamond.
+const YOUNGS_MODULI: [f64; 2] = [1e6, 2e12];
+
+/// Densities of solids, kg/m³: from foams to beyond osmium.
+const DENSITIES: [f64; 2] = [5.0, 3e4];
+
+/// Largest dimension of a section, m: that of large pipes and girders.
+const MOST_SECTION: f64 = 5.0;
+
+/// A gap beyond this many sections of the beam bounds no motion that a beam makes.
+const MOST_GAP: f64 = 2.0;
+
+impl Case {
+    /// A note on each kind of value that lies outside of what is usual.
+    pub(super) fn unusual_values(&self) -> Vec<String> {
+        let own = [self.unusual_wear(), self.unusual_ratio(), self.unusual_gap(), self.long_correlation()];
+        self.beams().filter_map(unusual_beam).chain(own.into_iter().flatten()).collect()
+    }
+
+    /// The beams, of the system or of bodies.
+    fn beams(&self) -> impl Iterator<Item = &Beam> {
+        let bodies = match &self.model {
+            Model::Bodies(bodies) => bodies.as_slice(),
+            _ => &[],
+        };
+        std::iter::once(&self.model).chain(bodies.iter().map(|body| &body.model)).filter_map(|model| match model {
+            Model::Beam(beam) => Some(beam),
+            _ => None,
+        })
+    }
+
+    /// Wear coefficients beyond those of metals in water or air.
+    fn unusual_wear(&self) -> Option<String> {
+        let own = self.written.supports.iter().flat_map(|s| [s.wear.coefficient, s.wear.support_coefficient]);
+        let mut all = own.chain([self.wear.coefficient, self.wear.support_coefficient]).flatten();
+        let odd = all.find(|k| outside(*k, COEFFICIENTS))?;
+        let [least, most] = COEFFICIENTS;
+        Some(format!(
+            "the wear coefficient {odd:e} 1/Pa lies outside of what is measured for metals, {least:e} to {most:e} \
+             1/Pa: mind the unit (1/Pa = m²/N)"
+        ))
+    }
+
+    /// A damping ratio that is more likely meant in per cent.
+    fn unusual_ratio(&self) -> Option<String> {
+        let ratio = self.written.damping_ratio.filter(|ratio| *ratio > MOST_RATIO)?;
+        Some(format!(
+            "a damping ratio of {ratio} is {} % of the critical damping: ratios are shares, 0.01 for 1 %",
+            amount(100.0 * ratio, 3)
+        ))
+    }
+
+    /// A gap that is wide beside the section of the thickest beam.
+    fn unusual_gap(&self) -> Option<String> {
+        let thick = self.beams().map(|beam| widest(beam.section)).reduce(f64::max)?;
+        let gap = |face: &Face| match *face {
+            Face::Flat { position, .. } => position.abs(),
+            Face::Round { gap, .. } => gap,
+        };
+        let walls = self.unreduced().walls.iter();
+        let wide = walls.map(|wall| (gap(&wall.face), &wall.name)).find(|(gap, _)| *gap > MOST_GAP * thick)?;
+        Some(format!(
+            "the wall {:?} stands {} m from the beam's rest, {} times its section of {} m: mind the unit, m",
+            wide.1,
+            amount(wide.0, 3),
+            amount(wide.0 / thick, 2),
+            amount(thick, 3)
+        ))
+    }
+
+    /// A correlation length of turbulence beyond the stretch on which it acts.
+    fn long_correlation(&self) -> Option<String> {
+        let stretch = |[from, to]: [f64; 2]| to - from;
+        let long = self.turbulence().iter().find(|field| field.correlation_length > stretch(field.along))?;
+        Some(format!(
+            "turbulence {}: its correlation length of {} m is longer than the {} m on which it acts, where measured \
+             ones are a few diameters: mind the unit, m",
+            long.number(),
+            amount(long.correlation_length, 3),
+            amount(stretch(long.along), 3)
+        ))
+    }
+}
+
+/// What of a beam lies outside of what solids and structures have.
+fn unusual_beam(beam: &Beam) -> Option<String> {
+    let section = widest(beam.section);
+    let odd = if outside(beam.youngs_modulus, YOUNGS_MODULI) {
+        format!("a Young's modulus of {:e} Pa is none of a solid: mind the unit, Pa", beam.youngs_modulus)
+    } else if outside(beam.density, DENSITIES) {
+        format!("a density of {:?} kg/m³ is none of a solid: mind the unit, kg/m³", beam.density)
+    } else if section > MOST_SECTION {
+        format!("a beam {section:?} m wide and {:?} m long: mind the unit, m", beam.length)
+    } else if section > beam.length {
+        format!("a beam {section:?} m wide and only {:?} m long: mind the units, m", beam.length)
+    } else {
+        return None;
+    };
+    Some(odd)
+}
+
+/// The outer diameter of a tube, or the longer side of a rectangle, m.
+fn widest(section: BeamSection) -> f64 {
+    match section {
+        BeamSection::Tube { outer_diameter, .. } => outer_diameter,
+        BeamSection::Rectangle { width, height } => width.max(height),
+    }
+}
+
+fn outside(x: f64, [least, most]: [f64; 2]) -> bool {
+    !(least..=most).contains(&x)
+}
