@@ -27,10 +27,11 @@
 //! `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and `wear.rs`
 //! give the scenes of realisations and of worn supports, `wording.rs` finds the key of each value
 //! of the scene, `written.rs` keeps what the scene itself no longer shows, `notes.rs` says what
-//! readers of a run must know, `units.rs` which values are more likely meant in another unit; `case_file.rs` is the document that a case keeps, `key.rs` the path
-//! of a value, by which it is changed to a `key_value.rs` before it is built (`changes.rs`, many
-//! times by `template.rs`), `tangent.rs` differentiates the scene by a key, `summary.rs` reads the
-//! case of a finished run (feature `case`).
+//! readers of a run must know, `units.rs` which values are more likely meant in another unit;
+//! `case_file.rs` is the document that a case keeps, `key.rs` the path of a value, by which it is
+//! changed to a `key_value.rs` before it is built (`changes.rs`, many times by `template.rs`),
+//! `tangent.rs` differentiates the scene by a key, `summary.rs` reads the case of a finished run
+//! (feature `case`).
 #![doc = include_str!("../../cases/README.md")]
 
 mod base;

@@ -1,4 +1,5 @@
-//! Notes on values that are more likely meant in another unit: a run of them is correct and useless.
+//! Notes on values that are more likely meant in another unit: a run of them is correct and
+//! useless.
 
 use super::{Case, Model};
 use crate::error::amount;
