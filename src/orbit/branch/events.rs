@@ -11,6 +11,11 @@ use crate::error::Result;
 use crate::flow::Support;
 use crate::scene::Side;
 
+/// The value of a test function that the law of a wall does not have, such as the beginning of a
+/// rest after impacts with restitution. It has no sign, which therefore does not change where a
+/// branch in restitution or damping comes to 0.
+const NONE: f64 = f64::NAN;
+
 /// A test function: its label, the event that it belongs to, and its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Test {
@@ -49,11 +54,15 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
         let mut arc = problem.arc();
         if let (Kind::Enter | Kind::Leave | Kind::Again, BoundaryLaw::Elastic { damping, .. }) =
             (event.kind, boundary.law)
-            && damping > 0.0
         {
-            problem.fly(&mut arc, state, [start, lasts * problem.forcing_period()], &touching[index], None);
-            let nearest = problem.nearest_change(&arc, index, orbit.phases[index]);
-            add(Label::ContactEnds, nearest.map_or(1.0, |nearest| nearest.gap / length));
+            let gap = if damping > 0.0 {
+                problem.fly(&mut arc, state, [start, lasts * problem.forcing_period()], &touching[index], None);
+                let nearest = problem.nearest_change(&arc, index, orbit.phases[index]);
+                nearest.map_or(1.0, |nearest| nearest.gap / length)
+            } else {
+                NONE
+            };
+            add(Label::ContactEnds, gap);
         }
         match (event.kind, boundary.law) {
             (Kind::Rest, _) => {
@@ -62,9 +71,10 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
                 let [reaction, ..] = arc.pressing(Support { wall: event.wall, side }, 0.0);
                 add(Label::RestEnds, reaction / force);
             }
-            (Kind::Impact, BoundaryLaw::Rigid(0.0)) => {
+            (Kind::Impact, BoundaryLaw::Rigid(restitution)) => {
                 problem.fly(&mut arc, state, [start, 0.0], &[], None);
-                add(Label::RestBegins, -boundary.toward * arc.start_jet()[2]);
+                let away = -boundary.toward * arc.start_jet()[2];
+                add(Label::RestBegins, if restitution == 0.0 { away } else { NONE });
             }
             _ => {}
         }
