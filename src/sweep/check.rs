@@ -8,6 +8,7 @@ use super::measure::{Measure, Scope};
 use super::plan::Plan;
 use super::request::{Kernel, Sweep, Window};
 use super::sample::Samples;
+use super::strobe;
 use super::target::Target;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
@@ -122,6 +123,13 @@ impl Sweep {
         let periods = matches!(self.window, Window::Periods { .. });
         if let Some(measure) = self.measures.iter().find(|measure| measure.needs_period()).filter(|_| !periods) {
             return Err(Error::invalid("[measure] columns", measure, PERIODS));
+        }
+        if let Window::Periods { keep, .. } = self.window
+            && self.measures.contains(&Measure::Period)
+            && (keep as usize) < strobe::LEAST_KEPT
+        {
+            let expected = format!("{} forcing periods or more for the measure period", strobe::LEAST_KEPT);
+            return Err(Error::invalid("[run] keep", keep, expected));
         }
         if self.samples == Some(Samples::Periods) && !periods {
             return Err(Error::invalid("[measure] samples", "\"periods\"", PERIODS));

@@ -254,6 +254,7 @@ wall = "upper"
             ("[run]\n", "[run]\nuntil_interval = 0.05\nseeds = 6\n", "no interval beside a number"),
             ("[run]\n", "[run]\nmost_seeds = 50\n", "until_interval beside it"),
             ("keep = { periods = 6 }", "keep = { periods = 0 }", "one forcing period or more"),
+            ("keep = { periods = 6 }", "keep = { periods = 3 }", "4 forcing periods or more for the measure period"),
             ("keep = { periods = 6 }", "keep = { periods = 4294967293 }", "less than 2^32 - 1 periods in all"),
             ("keep = { periods = 6 }", "keep = { seconds = 6 }", "both units"),
             ("keep = { periods = 6 }\n", "", "settle without keep"),

@@ -13,6 +13,9 @@ const NEAR: f64 = 1e-3;
 /// Number of repetitions required.
 const REPEATS: usize = 3;
 
+/// Fewest forcing periods after which a motion of one period is known to repeat itself.
+pub(super) const LEAST_KEPT: usize = REPEATS + 1;
+
 /// Largest relative change of the squared distances between the states of one repetition, over two
 /// repetitions. A transient that turns about an orbit of fewer periods, by multipliers of modulus
 /// μ, changes them by 1 − μ⁴ᴺ.
@@ -98,7 +101,7 @@ pub(super) fn repeats(states: &[&State], period: f64, gap: Option<f64>) -> Optio
     };
     let count = states.len();
     let periods = (1..=MOST_PERIODS).find(|&n| {
-        count >= (REPEATS + 1) * n
+        count >= LEAST_KEPT * n
             && (count - REPEATS * n..count).all(|j| match (states.get(j), states.get(j - n)) {
                 (Some(a), Some(b)) => near(a, b),
                 _ => false,
