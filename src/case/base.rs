@@ -215,7 +215,7 @@ impl Builder<'_> {
     /// The influence that a load of `kind` states; required of matrices and modal data, and refused
     /// beside other systems.
     fn influence_of(&self, (owner, kind): (&str, &str), base: &Section<'_>) -> Result<Option<Vec<(usize, f64)>>> {
-        let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
+        let influence = base.get("influence").map(|value| self.influence((owner, kind), value)).transpose()?;
         let whole = matches!(self.model, Model::Matrices(_) | Model::Modal(_));
         if let (Model::Bodies(_), Some(unknown)) =
             (&self.model, self.model.systems().find(|model| matches!(model, Model::Matrices(_) | Model::Modal(_))))
@@ -282,8 +282,8 @@ impl Builder<'_> {
     }
 
     /// `{ row = [[0, 1.0], ..] }`.
-    fn influence(&self, owner: &str, value: &Spanned<Value<'_>>) -> Result<Vec<(usize, f64)>> {
-        let key = format!("{owner}: base: influence");
+    fn influence(&self, (owner, kind): (&str, &str), value: &Spanned<Value<'_>>) -> Result<Vec<(usize, f64)>> {
+        let key = format!("{owner}: {kind}: influence");
         match value.get_ref() {
             Value::Table(entries) => match entries.as_slice() {
                 [(name, row)] if name.get_ref() == "row" => self.row(&format!("{key}: row"), row),
