@@ -128,6 +128,9 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     Ok(found)
 }
 
+/// A speed below this share of those of the steady motion is rounding.
+const ROUNDING: f64 = 1e-12;
+
 impl Linear {
     fn of(scene: &Scene, omega: f64, period: f64) -> Result<Self> {
         let n = scene.system.degrees_of_freedom();
@@ -218,7 +221,10 @@ impl Linear {
         let large = b + discriminant.sqrt().copysign(b);
         let speeds = if large == 0.0 { [0.0, 0.0] } else { [large / a, c / large] };
         for (index, speed) in speeds.into_iter().enumerate() {
-            if !(speed > 0.0 && speed.is_finite()) || (index == 1 && speed == speeds[0]) {
+            // Where free motion repeats itself over the flight, 1 - E is singular but for rounding,
+            // and the speed rounding alone: no impact leaves the motion as it is.
+            let rounding = ROUNDING * self.omega * gap.hypot(response.norm());
+            if !(speed > rounding && speed.is_finite()) || (index == 1 && speed == speeds[0]) {
                 continue;
             }
             // The steady motion at the wall is Im(B e^{iΩt}), its velocity over Ω the real part.

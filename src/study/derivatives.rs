@@ -89,11 +89,14 @@ impl Derivatives {
     /// displacements and velocities of the probes at `times` (s, increasing, from 0 to the end).
     ///
     /// # Errors
-    /// As [`Derivatives::check`], [`Error::Invalid`] for times outside of the run or not
-    /// increasing, and errors of the exact scheme. A run that has no derivative from a time on is
+    /// As [`Derivatives::check`], [`Error::Invalid`] without keys and for times outside of the run or
+    /// not increasing, and errors of the exact scheme. A run that has no derivative from a time on is
     /// none: see [`Derivatives::ended`].
     pub fn new(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
         let mut variation = KeyVariation::new(scene, tangents, times)?;
+        if tangents.is_empty() {
+            return Err(Error::invalid("keys", "none", "one key or more"));
+        }
         if let Some(time) = times.iter().find(|time| !(0.0..=scene.duration).contains(*time)) {
             let expected = format!("from 0 to the end, {:?} s", scene.duration);
             return Err(Error::invalid("times", format_args!("{time:?}"), expected));

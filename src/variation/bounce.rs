@@ -2,9 +2,9 @@
 //! matrix and the terms of keys of `jump.rs` for a single row, in plain numbers.
 
 use super::contact_changes::is_late;
-use super::instant::{ONCE, STUCK};
+use super::instant::{GRAZING, ONCE, STUCK};
 use super::keys::Keys;
-use super::structure::StructureVariation;
+use super::structure::{At, StructureVariation};
 use crate::step::Step;
 
 /// The impact.
@@ -105,6 +105,10 @@ impl StructureVariation {
         let at = self.walls.get(wall)?;
         let restitution = at.restitution.filter(|e| *e > 0.0)?;
         let touched = self.during.iter().any(|&held| held) || self.walls.iter().any(|at| at.during);
+        let shares = |(other, one): (usize, &At)| other != wall && at.shares_place(one, GRAZING * self.length);
+        if self.walls.iter().enumerate().any(shares) {
+            return None;
+        }
         let presses = step.force.iter().any(|&force| force != 0.0);
         if struck.next().is_some() || touched || presses || self.keys.loads.has_blows() || step.end <= step.start {
             return None;

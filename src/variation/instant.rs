@@ -23,9 +23,19 @@ const ROUNDING: f64 = 1e-9;
 
 /// A body grazes a wall where it is this near, as a share of the scene's gap scale, and no faster
 /// than a fall from a hundred times that height makes it.
-const GRAZING: f64 = 1e-10;
+pub(super) const GRAZING: f64 = 1e-10;
 
 type Done = std::result::Result<(), NoDerivative>;
+
+impl At {
+    /// True for another wall at the same place, to within `near` (m), that stops a body or pushes
+    /// it by a dashpot as soon as it is there.
+    pub fn shares_place(&self, other: &At, near: f64) -> bool {
+        let sudden = other.restitution.is_some() || other.damping > 0.0;
+        let same = other.row == self.row && other.sign == self.sign && (other.position - self.position).abs() <= near;
+        sudden && same
+    }
+}
 
 impl StructureVariation {
     /// Applies the matrix of coming to rest for rows that are held from here on without an impact:
@@ -130,14 +140,19 @@ impl StructureVariation {
 
     /// The impacts at the end of `step`, after its blows if it is `blown`.
     pub(super) fn impact(&mut self, step: &Step<'_>, stretch: &Stretch<'_>, blown: bool, columns: &mut [f64]) -> Done {
-        let Self { flow, walls, names, jump, during, after, wall_of, v, a, keys, .. } = self;
+        let Self { flow, walls, names, jump, during, after, wall_of, v, a, length, keys, .. } = self;
         let (mut struck, mut passing): (Vec<Struck>, Vec<usize>) = (Vec::new(), Vec::new());
         for row in 0..during.len() {
-            let mut here = walls.iter().enumerate().filter(|(wall, at)| at.row == row && step.jump[*wall] != 0.0);
-            let Some((wall, first)) = here.next() else { continue };
-            let others: Vec<(usize, &At)> = here.collect();
+            let mut here = walls.iter().enumerate().filter(|(_, at)| at.row == row);
+            let Some((wall, first)) = here.find(|(wall, _)| step.jump[*wall] != 0.0) else { continue };
+            // Walls at the same place, whether they take part of the impulse or not: were one of
+            // them nearer, it would be struck.
+            let near = GRAZING * *length;
+            let others: Vec<(usize, &At)> =
+                walls.iter().enumerate().filter(|(other, at)| *other != wall && first.shares_place(at, near)).collect();
             for other in &others {
-                keys.lose(keys.differing(wall, other.0), &together(names, step));
+                let walls = [wall, other.0].map(|wall| name_of(names, wall)).to_vec();
+                keys.lose(keys.differing(wall, other.0), &NoDerivative::Together { time: step.end, walls });
             }
             wall_of[row] = wall;
             let e = others.iter().filter_map(|(_, at)| at.restitution).chain(first.restitution).fold(0.0, f64::max);

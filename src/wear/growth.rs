@@ -210,7 +210,9 @@ impl Archard {
             (Growth::Flats | Growth::Kept, Bearing::Flat) => work.walls.iter().map(flat).collect(),
             _ => work.sectors.iter().map(sector).collect(),
         };
-        own.into_iter().map(|depth| depth.min(one_scar)).collect()
+        // What is worn off twice the radius deep is cut off.
+        let whole = |depth: f64| if depth <= 2.0 * radius { depth.min(one_scar) } else { f64::NAN };
+        own.into_iter().map(whole).collect()
     }
 
     /// Depth worn off the tube where it is deepest, m: the largest of [`Archard::depths`], 0 where
@@ -311,6 +313,10 @@ mod tests {
         sectors[5] = 3e4;
         let depth = law(Bearing::Hole { gap: 2e-4 }).deepest(Growth::Even, &round(sectors));
         assert!((depth / (4e-13 * 3e4 / (0.009_525 * TAU / 12.0 * 0.025)) - 1.0).abs() < 1e-13);
+        // All of it off one sector would be 25 mm deep, where the tube ends after 19.05 mm.
+        let mut sectors = vec![0.0; 12];
+        sectors[5] = 8e6;
+        assert!(law(Bearing::Hole { gap: 2e-4 }).deepest(Growth::Even, &round(sectors)).is_nan());
     }
 
     #[test]

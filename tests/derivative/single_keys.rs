@@ -2,7 +2,7 @@
 
 use signorini::study::derivatives::Derivatives;
 use signorini::variation::{NoDerivative, SceneTangent};
-use signorini::{Load, Result, Scene, Wall};
+use signorini::{Load, Options, Result, Scene, Scheme, Wall, run};
 
 /// A body between two stops of these restitutions, under a sine of this amplitude.
 fn stopped([upper, lower, amplitude]: [f64; 3]) -> Result<Scene> {
@@ -181,4 +181,55 @@ fn a_contact_that_begins_with_the_motion_approaches_at_the_speed_of_the_start() 
     assert_eq!((first.contact.start, first.contact.approach_speed), (0.0, 0.2));
     // Rounding of the derivative of the start.
     assert!(first.start_by[0] == 0.0 && (first.approach_speed_by[0] - 1.0).abs() < 1e-14);
+}
+
+/// A body that strikes two walls at one place, of these positions and restitutions, and a dashpot
+/// there.
+fn doubled([first, second, e, dashpot]: [f64; 4]) -> Result<Scene> {
+    Ok(Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::upper("first", first).with_restitution(e))
+        .with_wall(Wall::upper("second", second).with_restitution(0.6))
+        .with_wall(Wall::upper("dashpot", dashpot).with_elasticity(10.0, 5.0))
+        .with_load(Load::harmonic(3.0, 2.5, 0.0))
+        .with_output_times(&[0.5]))
+}
+
+#[test]
+fn walls_at_one_place_have_no_derivative_by_the_position_of_one_of_them() {
+    let own = [5e-3, 5e-3, 0.6, 5e-3];
+    let place = |index: Option<usize>, x: f64| {
+        let mut changed = own;
+        match index {
+            Some(index) => changed[index] = x,
+            None => [changed[0], changed[1], changed[3]] = [x; 3],
+        }
+        doubled(changed)
+    };
+    let keys = [Some(0), Some(1), Some(3), None];
+    let tangents = keys.map(|index| SceneTangent::new("position", 5e-3, |x| place(index, x)).expect("a tangent"));
+    let found = Derivatives::new(&doubled(own).unwrap(), &tangents, &[0.5]).expect("a run");
+    let at = |index: Option<usize>, x: f64| {
+        let run = run(&place(index, x).unwrap(), &Scheme::Event, &Options::with_step(0.5)).expect("a run");
+        *run.trajectory.output().displacement[0].last().unwrap()
+    };
+    for (key, index) in keys.into_iter().enumerate() {
+        let step = 1e-8;
+        let [before, now, after] = [-step, 0.0, step].map(|change| at(index, 5e-3 + change));
+        let [left, right] = [(now - before) / step, (after - now) / step];
+        // Both differ by the second derivative times the step where there is a derivative at all.
+        let exists = (left - right).abs() < 1e-4 * left.abs();
+        assert_eq!(exists, index.is_none(), "{left} {right}");
+        if exists {
+            assert!((found.motion.displacement_by[key] / left - 1.0).abs() < 1e-4, "{:?}", found.motion);
+        } else {
+            assert!(matches!(&found.lost[key], Some(NoDerivative::Together { .. })), "{:?}", found.lost);
+            assert!(found.motion.displacement_by[key].is_nan());
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_no_key_are_refused() {
+    let refused = Derivatives::new(&stopped([0.5, 0.5, 3.0]).unwrap(), &[], &[0.5]).unwrap_err();
+    assert_eq!(refused.to_string(), "keys is none; expected one key or more");
 }

@@ -530,3 +530,16 @@ fn what_has_no_orbit_is_refused_with_the_reason() {
         assert!(refused.is_request() == request && refused.to_string().contains(words), "{refused}");
     }
 }
+
+#[test]
+fn a_flight_after_which_free_motion_repeats_itself_has_no_orbit_in_closed_form() {
+    // Without damping, at twice the natural frequency: over two periods of the load the free motion
+    // comes back to where it was, so that no impact of speed v > 0, which takes (1 + e) v away, can
+    // be part of an orbit of two periods, or of four.
+    let scene = Scene::oscillator(1.0, 0.0, 100.0)
+        .with_wall(Wall::upper("stop", 5e-3).with_restitution(0.5))
+        .with_load(Load::harmonic(3.0, 20.0 / TAU, 0.0));
+    let found = closed_forms(&scene, 4).unwrap();
+    let periods: Vec<u32> = found.iter().map(|one| one.periods).collect();
+    assert!(!found.is_empty() && periods.iter().all(|n| n % 2 == 1), "{found:?}");
+}
