@@ -18,7 +18,7 @@
 //! with independent phases that follow from the seed: the simulation of several correlated
 //! processes of Shinozuka & Deodatis 1991 (doi:10.1115/1.3119501). L is lower triangular in the
 //! order of the modes, so that the forces on the first modes stay as more modes are added, and the
-//! forces depend neither on the step nor on the scheme. The mean square of a force over T scatters
+//! forces depend neither on the step nor on the scheme, nor on other bodies. The mean square of a force over T scatters
 //! from seed to seed by about 1/√(lines), where its lines have contributions of several modes; that
 //! of the first mode, whose lines have one, does not scatter.
 
@@ -198,11 +198,13 @@ impl Turbulence {
         for line in lines.numbers() {
             let mut factor = self.cross_densities(coherence, weights, lines.frequency(line));
             factorise(&mut factor);
-            let phase = |(mode, _): &(usize, Vec<f64>)| {
-                let bits = hash::mix(hash::mix(self.seed, self.stream, *mode as u64), MODES, line as u64);
+            // By the number among the modes that the field moves: those of other bodies and of the
+            // other plane, which lie between them, change nothing.
+            let phase = |number: usize| {
+                let bits = hash::mix(hash::mix(self.seed, self.stream, number as u64), MODES, line as u64);
                 (TAU * hash::unit(bits)).sin_cos()
             };
-            let phases: Vec<(f64, f64)> = weights.iter().map(phase).collect();
+            let phases: Vec<(f64, f64)> = (0..weights.len()).map(phase).collect();
             for (row, amplitudes) in factor.iter().zip(&mut amplitudes) {
                 let add = |(a, b): (f64, f64), (l, (sin, cos)): (&f64, &(f64, f64))| (a + l * cos, b + l * sin);
                 let (a, b) = row.iter().zip(&phases).fold((0.0, 0.0), add);
