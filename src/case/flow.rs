@@ -6,7 +6,9 @@ use super::model::{Body, Model, Place};
 use super::value::Section;
 use super::written::Line;
 use crate::error::{Error, Result};
-use crate::scene::{Connors, Damping, FlowMargin, FlowTube, FluidElastic, Modes, Row, System, Turbulence};
+use crate::scene::{
+    Connors, Damping, FlowMargin, FlowTube, FluidElastic, Modes, Row, System, Turbulence, TurbulenceSpectrum,
+};
 use crate::study::truncation::Unreduced;
 use toml::Spanned;
 
@@ -166,9 +168,12 @@ impl Case {
         if bare { self.flow_note() } else { self.instability() }
     }
 
-    /// What the margins in the flow mean, where one is below 1.
+    /// What the margins in the flow mean, where one is below 1, or that nothing is known of them.
     pub(super) fn flow_note(&self) -> Option<String> {
-        let found = self.fluid_elastic.as_ref()?;
+        let Some(found) = &self.fluid_elastic else {
+            let flows = |field: &Turbulence| matches!(field.spectrum, TurbulenceSpectrum::Flow { .. });
+            return self.turbulence().iter().any(flows).then(|| UNKNOWN.to_owned());
+        };
         self.instability().or_else(|| {
             let one = unstable(&found.inactive)?;
             let held = if found.active.is_empty() { "" } else { "; with all of them active it is stable" };
@@ -178,6 +183,10 @@ impl Case {
         })
     }
 }
+
+/// That margins in a flow were not asked for.
+const UNKNOWN: &str = "whether this flow is within the fluid-elastic limit, beyond which work rates mean nothing, is \
+                       not known: [flow] with connors = 3.0, say, tells the margins";
 
 /// The mode of the least margin, if that is below 1.
 fn unstable(margins: &[FlowMargin]) -> Option<&FlowMargin> {

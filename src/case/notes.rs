@@ -1,7 +1,7 @@
 //! Notes that the reader of any run of a case must know.
 
 use super::beam::elements_of_modes;
-use super::{Case, Model, Origin, SupportShape, Truncated, WallsOverBase};
+use super::{Case, Model, Origin, Place, SupportShape, Truncated, WallsOverBase};
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
 
@@ -16,6 +16,7 @@ impl Case {
         notes.extend(self.cut_notes());
         notes.extend(self.open_supports());
         notes.extend(self.unusual_values());
+        notes.extend(self.wear_of_one());
         notes.extend(self.start_note());
         notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
@@ -56,6 +57,23 @@ impl Case {
                 _ => "stand within a half turn: it bounds the motion on their side only".to_owned(),
             };
             Some(format!("the flats of support {:?} {said}", flats.name))
+        })
+    }
+
+    /// Supports between two bodies that both wear, of which one is told the depth.
+    fn wear_of_one(&self) -> impl Iterator<Item = String> {
+        self.written.supports.iter().filter_map(|support| {
+            let Place::Relative { place, to } = &support.place else { return None };
+            let (Place::On { body: tube, .. }, Place::On { body: other, .. }) = (&**place, &**to) else { return None };
+            let wears = support.wear.support_coefficient.or(self.wear.support_coefficient).is_some_and(|k| k > 0.0);
+            (tube != other && wears).then(|| {
+                format!(
+                    "at support {:?} depths, limit and the end of the tube are those of the body {tube:?}, which its \
+                     `at` names first; of {other:?}, the support there, the worn volume is told: exchange the two \
+                     for its depth",
+                    support.name
+                )
+            })
         })
     }
 

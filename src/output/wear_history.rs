@@ -201,11 +201,11 @@ pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
         let mut own = Map::from_iter([("place".to_owned(), json!(name)), ("limit_m".to_owned(), json!(limit))]);
         let mut add = |depth: &str, value: WearQuantity| {
             let in_years = |time: Option<f64>| time.map(|time| time / YEAR);
-            let mean = limit.and_then(|limit| found.reaches(support, limit, value));
-            let each = limit.map_or(Vec::new(), |limit| found.reaches_by_history(support, limit, value));
-            let each: Vec<Option<f64>> = each.into_iter().map(in_years).collect();
-            let later = limit.filter(|_| mean.is_none());
-            let later = later.and_then(|limit| found.reaches_at_last_rate(support, limit, value));
+            let reached = limit.map(|limit| found.limit_reached(support, limit, value));
+            let mean = reached.as_ref().and_then(|one| one.mean);
+            let later = reached.as_ref().and_then(|one| one.at_last_rate);
+            let each = reached.as_ref().map_or(&[][..], |one| &one.histories);
+            let each: Vec<Option<f64>> = each.iter().copied().map(in_years).collect();
             own.insert(format!("limit_{depth}_years"), json!(in_years(mean.map(|found| found.time_s))));
             own.insert(
                 format!("limit_{depth}_half_width_95_years"),

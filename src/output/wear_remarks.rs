@@ -4,38 +4,16 @@
 use super::realisations::{self, with_interval};
 use crate::case::Case;
 use crate::error::amount;
+use crate::order::sort_by_number;
 use crate::study::realisations::Groups;
-use crate::study::wear_history::{TimeOfLimit, WearHistories, WearQuantity, WornThrough, YEAR, mean};
+use crate::study::wear_history::{LimitReached, TimeOfLimit, WearHistories, WearQuantity, WornThrough, YEAR, mean};
 use crate::wear::Growth;
 
 /// When the limit is reached, and what the figures mean, a sentence each.
 #[must_use]
 pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     let mut remarks: Vec<String> = case.instability().into_iter().collect();
-    let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
-    for (support, name) in found.supports.iter().enumerate() {
-        let Some(limit) = case.wear.limit else { break };
-        let place = format!("the tube reaches the limit of {} mm at support {name:?}", amount(1e3 * limit, 3));
-        if let Some(later) = all_later(found, support, limit) {
-            remarks.push(format!("{place} not within {} years; {later}", rounded(end)));
-            continue;
-        }
-        let after = |value: WearQuantity| {
-            let among = among(&found.reaches_by_history(support, limit, value), value);
-            let Some(time) = found.reaches(support, limit, value) else {
-                let later = later(found.reaches_at_last_rate(support, limit, value));
-                return format!("not within {} years{among}{later}", rounded(end));
-            };
-            format!("after {} years{among}", in_years(time))
-        };
-        remarks.push(format!(
-            "{place} {} where it is deepest, {} if all of its wear comes off one scar, {} if it comes off evenly all \
-             round",
-            after(WearQuantity::DepthDeepest),
-            after(WearQuantity::DepthOneScar),
-            after(WearQuantity::DepthAllRound)
-        ));
-    }
+    remarks.extend(limits(case, found));
     remarks.extend(worn_through(found));
     remarks.extend(found.cautioned.sentences());
     remarks.extend(unworn(found));
@@ -72,20 +50,53 @@ fn in_years(TimeOfLimit { time_s, half_width_95_s, .. }: TimeOfLimit) -> String 
     half_width_95_s.map_or_else(|| amount(time_s / YEAR, 3), |half| with_interval(time_s / YEAR, Some(half / YEAR)))
 }
 
-/// When the limit (m) is reached at the last rates, in words; `None` where a mean or a history
-/// reaches it before.
-fn all_later(found: &WearHistories, support: usize, limit: f64) -> Option<String> {
-    let years = |value: WearQuantity| {
-        let before = found.reaches_by_history(support, limit, value).into_iter().flatten().next();
-        let time = found.reaches_at_last_rate(support, limit, value)?;
-        before.is_none().then(|| in_years(time))
+/// When the tube reaches its limit at each support, a sentence each: first where it does so first.
+fn limits(case: &Case, found: &WearHistories) -> Vec<String> {
+    let Some(limit) = case.wear.limit else { return Vec::new() };
+    let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
+    let one = |(support, name): (usize, &String)| {
+        let depths = [WearQuantity::DepthDeepest, WearQuantity::DepthOneScar, WearQuantity::DepthAllRound];
+        let reached = depths.map(|depth| (depth, found.limit_reached(support, limit, depth)));
+        let place = format!("the tube reaches the limit of {} mm at support {name:?}", amount(1e3 * limit, 3));
+        let words = match all_later(&reached) {
+            Some(later) => format!("not within {} years; {later}", rounded(end)),
+            None => {
+                let [deepest, one_scar, all_round] = reached.each_ref().map(|(depth, one)| after(one, *depth, end));
+                format!(
+                    "{deepest} where it is deepest, {one_scar} if all of its wear comes off one scar, {all_round} if \
+                     it comes off evenly all round"
+                )
+            }
+        };
+        let deepest = &reached[0].1;
+        let first = deepest.mean.or(deepest.at_last_rate).map_or(f64::INFINITY, |time| time.time_s);
+        (first, format!("{place} {words}"))
     };
+    let mut all: Vec<(f64, String)> = found.supports.iter().enumerate().map(one).collect();
+    sort_by_number(&mut all, |one| one.0);
+    all.into_iter().map(|(_, words)| words).collect()
+}
+
+/// When a limit is reached, in words.
+fn after(reached: &LimitReached, depth: WearQuantity, end: f64) -> String {
+    let among = among(&reached.histories, depth);
+    match reached.mean {
+        Some(time) => format!("after {} years{among}", in_years(time)),
+        None => format!("not within {} years{among}{}", rounded(end), later(reached.at_last_rate)),
+    }
+}
+
+/// When the limit is reached at the last rates by all depths, in words; `None` where a mean or a
+/// history reaches it before.
+fn all_later(reached: &[(WearQuantity, LimitReached); 3]) -> Option<String> {
+    let years = |(_, one): &(WearQuantity, LimitReached)| {
+        one.at_last_rate.filter(|_| one.histories.iter().all(Option::is_none)).map(in_years)
+    };
+    let [deepest, one_scar, all_round] = reached.each_ref().map(years);
     Some(format!(
         "at the last rates after {} years where it is deepest, after {} if all of its wear comes off one scar, after \
          {} if it comes off evenly all round",
-        years(WearQuantity::DepthDeepest)?,
-        years(WearQuantity::DepthOneScar)?,
-        years(WearQuantity::DepthAllRound)?
+        deepest?, one_scar?, all_round?
     ))
 }
 
@@ -293,10 +304,13 @@ mod tests {
         }
         assert_eq!(later(found.reaches_at_last_rate(0, 6e-4, deepest)), ", after 40 ± 169 at the last rate");
         // At a hundredth of the rates not even one scar has the limit by then.
-        let all = all_later(&histories(&[1e-7, 2e-7]), 0, 6e-4).unwrap();
+        let of = |found: &WearHistories, limit: f64| {
+            [deepest, WearQuantity::DepthOneScar, depth].map(|depth| (depth, found.limit_reached(0, limit, depth)))
+        };
+        let all = all_later(&of(&histories(&[1e-7, 2e-7]), 6e-4)).unwrap();
         assert!(all.starts_with("at the last rates after 4000 ± 16942 years where it is deepest, after "), "{all}");
         assert!(all.ends_with("after 4500 ± 19059 if it comes off evenly all round"), "{all}");
-        assert_eq!(all_later(&found, 0, 1.2e-4), None, "histories reach it before");
+        assert_eq!(all_later(&of(&found, 1.2e-4)), None, "histories reach it before");
         // Of one history whose windows leave 10 % open: after 12 years, and at 1.1 times the rate
         // after 12/1.1.
         let one = histories(&[1e-5]);

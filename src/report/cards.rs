@@ -169,9 +169,9 @@ fn realisations(summary: &Value) -> Option<Value> {
     let count = number(&study["count"]);
     let of = if count > 1.0 { format!("over {count} realisations") } else { "from the batches of one".to_owned() };
     let verdict = match total {
-        _ if !relative.is_finite() => format!("The {what} has no interval: too few contacts"),
-        Some(_) => format!("The {what} has an error of {}, {of}", percent(relative)),
-        None => format!("The {what} is known to ±{} {of}", percent(relative)),
+        _ if !relative.is_finite() => format!("The largest {what} has no interval: too few contacts"),
+        Some(_) => format!("The largest {what} has an error of {}, {of}", percent(relative)),
+        None => format!("The largest {what} is known to ±{} {of}", percent(relative)),
     };
     Some(card("Realisations", state, verdict, text))
 }

@@ -13,8 +13,10 @@ use std::borrow::Cow;
 
 /// Most rows of a run that the page holds; of a longer one the rows with extremes.
 const MOST_ROWS: usize = 1 << 17;
+/// Most rows times watched places.
+const MOST_NUMBERS: usize = 24 * MOST_ROWS;
 /// Most watched places that the page holds.
-const MOST_PROBES: usize = 24;
+const MOST_PROBES: usize = 64;
 /// Most numbers of a shape.
 const MOST_SHAPE: usize = 800_000;
 
@@ -41,7 +43,8 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
     }
     let shown: Vec<&[f64]> =
         table.columns.iter().skip(1).take(2 * probes.min(MOST_PROBES)).map(Vec::as_slice).collect();
-    let rows = extremes(&shown, table.count(), MOST_ROWS);
+    let most = MOST_ROWS.min(2 * MOST_NUMBERS / shown.len().max(1));
+    let rows = extremes(&shown, table.count(), most);
     if let Some(rows) = &rows {
         left_out.push(format!(
             "of {} rows the {} are drawn in which a curve is least or largest in its stretch; trajectory.csv has all",

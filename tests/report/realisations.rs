@@ -128,7 +128,7 @@ fn the_page_of_a_run_under_several_seeds_has_the_means_and_their_errors() {
     let shown: f64 = cells[4].parse().unwrap();
     assert!((shown / share - 1.0).abs() < 0.06, "{shown} instead of {share}");
     let text = tab.evaluate("document.body.textContent").to_string();
-    assert!(text.contains("The work rate has an error of"), "the card tells the error");
+    assert!(text.contains("The largest work rate has an error of"), "the card tells the error");
     tab.close();
 }
 

@@ -6,7 +6,7 @@
 
 use super::super::realisations::{Deepest, mean_of};
 use super::accrual::Accrual;
-use super::histories::{TimeOfLimit, WearHistories, WearPoint, mean};
+use super::histories::{LimitReached, TimeOfLimit, WearHistories, WearPoint, mean};
 use super::state::WearQuantity;
 use super::support::WearingSupport;
 use crate::wear::WearWork;
@@ -194,6 +194,15 @@ impl WearHistories {
             course.reaches(limit).or_else(|| course.reaches_later(limit)).map(|earlier| time_s - earlier)
         };
         (!times.is_empty()).then(|| TimeOfLimit { time_s, half_width_95_s: half_width.or_else(largest) })
+    }
+
+    /// When a quantity of a support reaches `limit`: by the mean and in each history, or else at the
+    /// last rates.
+    #[must_use]
+    pub fn limit_reached(&self, support: usize, limit: f64, quantity: WearQuantity) -> LimitReached {
+        let mean = self.reaches(support, limit, quantity);
+        let at_last_rate = if mean.is_none() { self.reaches_at_last_rate(support, limit, quantity) } else { None };
+        LimitReached { mean, at_last_rate, histories: self.reaches_by_history(support, limit, quantity) }
     }
 
     /// Adds points between those of two windows where a depth does not grow straight.

@@ -99,6 +99,18 @@ pub struct TimeOfLimit {
     pub half_width_95_s: Option<f64>,
 }
 
+/// When a quantity of a support that grows reaches a limit.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LimitReached {
+    /// By the mean over the histories within the time in service; `None` where it does not.
+    pub mean: Option<TimeOfLimit>,
+    /// Where the mean does not, at the last rates after the end of the histories.
+    pub at_last_rate: Option<TimeOfLimit>,
+    /// The time in service at which each history alone reaches it, s.
+    pub histories: Vec<Option<f64>>,
+}
+
 /// The depths that the work (J) of a history has worn off the tube at each support, m.
 pub(super) fn depths(supports: &[WearingSupport], history: &[WearWork]) -> Vec<Vec<f64>> {
     supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()

@@ -40,7 +40,7 @@ pub(crate) use accrual::Accrual;
 use accrual::Works;
 use course::reached_from;
 use histories::depths;
-pub use histories::{TimeOfLimit, WearHistories, WearPoint, WornThrough, mean};
+pub use histories::{LimitReached, TimeOfLimit, WearHistories, WearPoint, WornThrough, mean};
 pub use state::{WearQuantity, WearState};
 pub use support::WearingSupport;
 pub use window::WearWindow;

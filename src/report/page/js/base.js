@@ -102,10 +102,19 @@ const raised = (n) => [...String(n)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]
 function digits(x, n = 4) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
   if (!Number.isFinite(x)) return x < 0 ? "−∞" : "∞";
-  if (x === 0) return "0";
+  // A count has all its digits.
+  if (Number.isInteger(x) && Math.abs(x) < 1e9) return minus(String(x));
   if (Math.abs(x) < 1e5 && Math.abs(x) >= 1e-3) return minus(String(+x.toPrecision(n)));
   const [mantissa, exponent] = x.toExponential(n - 1).split("e");
   return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised(+exponent);
+}
+
+/** Digits that tell these numbers apart, from four on. */
+function digitsApart(values) {
+  const all = [...new Set(values)].filter(Number.isFinite);
+  const tell = (n) => new Set(all.map((x) => digits(x, n))).size === all.length;
+  for (let n = 4; n < 15; n++) if (tell(n)) return n;
+  return 15;
 }
 
 /** A measure of realisations in words. */

@@ -60,6 +60,16 @@ function selection(label, choices, chosen, choose) {
   );
 }
 
+/** A list to choose from with what is chosen beside it, which stands on paper in its place. */
+function printed(select) {
+  const text = () => select.selectedOptions[0].textContent;
+  const chosen = el("span", { class: "chosen" }, text());
+  select.addEventListener("change", () => {
+    chosen.textContent = text();
+  });
+  return [select, chosen];
+}
+
 /** Samples of curves in chips and legends; drawn anew when colours change. */
 const samples = [];
 

@@ -84,7 +84,7 @@ function effectDiagrams(effects) {
       "div",
       { class: "bar" },
       words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
-      hollow ? el("span", { class: "help" }, "hollow: not distinguished from none") : null,
+      hollow ? el("span", {}, "hollow: not distinguished from none") : null,
     ),
     ...linesByMeasure(effects).map(([name, lines]) => effectBars(columns, lines, name)),
   ];

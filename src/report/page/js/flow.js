@@ -95,7 +95,7 @@ function spectrumOfModes({ columns, rows }, looks) {
       shown.mode = Number(mode);
       draw();
     };
-    pick.replaceChildren(selection("Mode", choices, String(shown.mode), choose));
+    pick.replaceChildren(...printed(selection("Mode", choices, String(shown.mode), choose)));
     draw();
     const some = own.find((i) => columns.asked_N2_per_Hz[i] > 0);
     const share = columns.scatter_N2_per_Hz[some] / columns.asked_N2_per_Hz[some];

@@ -37,7 +37,10 @@ const FEW_ROWS = 20;
 /** The stretch of the axis that is shown first: where something happens, if that is a part of it. */
 function firstView(columns, axis, measures, over = null) {
   const ends = extent([...columns[axis], ...(over ? over.columns[axis] : [])]) || [0, 1];
-  const view = new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
+  const beside = (ends[1] / ends[0]) ** 0.03;
+  const view = isGeometric(distinct(columns[axis]))
+    ? new View(ends[0] / beside, ends[1] * beside)
+    : new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
   const few = columns[axis].length <= FEW_ROWS;
   view.part = !few && view.beginAbout(eventful(columns, axis, measures));
   return view;
@@ -50,9 +53,12 @@ function sharedWords(names) {
   return all[0].slice(0, differs < 0 ? all[0].length : differs).join(" ");
 }
 
-/** Measures over one axis, those of one unit in one plot; all plots show one stretch of it. */
+/**
+ * Measures over one axis, those of one unit in one plot; all plots show one stretch of it. Options:
+ * over (another sweep), view, first (the names of those that are shown at first), marks(unit).
+ */
 function measureCurves(columns, axis, measures, tell, pick, options = {}) {
-  const { over = null, view = firstView(columns, axis, measures) } = options;
+  const { over = null, view = firstView(columns, axis, measures), first = null, marks = () => [] } = options;
   const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
   const units = [...new Set(measures.map(unitOf))];
   // From left to right, also where the values fall.
@@ -64,7 +70,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
     const own = lookOf(n);
     const colour =
       directions.length > 1 ? () => ink.ink : place ? () => placeColour(place) : own.colour;
-    return { label: columnLabel(name), look: { ...own, colour }, shown: n < 6, name };
+    return { label: columnLabel(name), look: { ...own, colour }, shown: first ? first.includes(name) : n < 6, name };
   };
   const curve = (item, direction) => {
     const along = rows.filter((i) => !direction || columns.direction[i] === direction);
@@ -90,6 +96,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   };
   const plotsOf = (unit) => {
     const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
+    if (!items.some(({ shown }) => shown)) items[0].shown = true;
     const shared = items.filter(({ name }) => over && over.columns[name] && !Array.isArray(over.columns[name]));
     const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
     const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
@@ -100,6 +107,8 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       height: 300,
       alt: `${y} over ${columnLabel(axis)}`,
       view,
+      log: [isGeometric(distinct(columns[axis])), false],
+      marks: marks(unit),
       series: [...shared.map(paleCurve), ...bands, ...series],
     });
     const points = () =>

@@ -22,10 +22,12 @@ function phaseSection() {
           "div",
           { class: "bar controls" },
           "Watched place ",
-          selection("Watched place", names, "0", (i) => {
-            choice.index = +i;
-            build();
-          }),
+          printed(
+            selection("Watched place", names, "0", (i) => {
+              choice.index = +i;
+              build();
+            }),
+          ),
         )
       : null;
   section(

@@ -1,6 +1,9 @@
 // A plot: axes, curves, walls, a cursor. Several plots over one View zoom and move together. Drawn
 // on canvas, since a run has up to 100 000 rows in each of several panels.
 
+/** Numbers that differ by less than this share of themselves are one. */
+const ROUNDING = 1e-12;
+
 class Plot {
   /**
    * Options:
@@ -62,7 +65,8 @@ class Plot {
       }
       if (!(lo <= hi)) return log ? [0.1, 1] : [-1, 1];
       if (log) return hi > lo ? [lo / (hi / lo) ** 0.04, hi * (hi / lo) ** 0.04] : [lo / 2, lo * 2];
-      return hi > lo
+      // A difference that rounding makes is none.
+      return hi - lo > ROUNDING * Math.max(Math.abs(lo), Math.abs(hi))
         ? padded([lo, hi], 0.05)
         : [lo - (Math.abs(lo) || 1), lo + (Math.abs(lo) || 1)];
     };

@@ -100,6 +100,7 @@ function sweepSection() {
         table.names
           .filter((name) => !ok || !["status", "error"].includes(name))
           .map((name) => [name, columnLabel(name)]),
+        axisColumns,
       ),
       table.rows,
       { height: 400, pick },
@@ -186,6 +187,7 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
   };
   const plot = new Plot({
     x: columnLabel(axisColumn),
+    log: [isGeometric(distinct(axis)), false],
     y: " ",
     height: 460,
     alt: "Instants of every row",
@@ -225,10 +227,11 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
 /** Chooses the column that a drawing shows, which `fill` draws anew. */
 function columnChoice(label, names, choice, fill) {
   const options = names.map((name) => [name, columnLabel(name)]);
-  return selection(label, options, choice.name, (name) => {
+  const pick = selection(label, options, choice.name, (name) => {
     choice.name = name;
     fill();
   });
+  return printed(pick);
 }
 
 /** The rows with one value of each of the axes `names`, which a map does not show: whether a row is
@@ -237,12 +240,14 @@ function sliceOf(columns, names, onChange) {
   const several = names.map((name) => [name, [...new Set(columns[name])]]).filter(([, values]) => values.length > 1);
   const chosen = new Map(several.map(([name, values]) => [name, values[0]]));
   const shown = (value) => (typeof value === "number" ? digits(value, 6) : `${value}`);
-  const controls = several.map(([name, values]) =>
-    selection(columnLabel(name), values.map((value, k) => [`${k}`, `${columnLabel(name)}: ${shown(value)}`]), "0", (k) => {
+  const controls = several.flatMap(([name, values]) => {
+    const choices = values.map((value, k) => [`${k}`, `${columnLabel(name)}: ${shown(value)}`]);
+    const choose = (k) => {
       chosen.set(name, values[Number(k)]);
       onChange();
-    }),
-  );
+    };
+    return printed(selection(columnLabel(name), choices, "0", choose));
+  });
   const shows = (i) => several.every(([name]) => columns[name][i] === chosen.get(name));
   return { shows, controls };
 }

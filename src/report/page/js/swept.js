@@ -20,7 +20,8 @@ function axisInWords({ column }, columns) {
   // Of a random design each row has one of its own.
   const count = new Set(columns[column]).size;
   const number = `${count} value${count === 1 ? "" : "s"}`;
-  const range = values && values[1] > values[0] ? ` from ${digits(values[0])} to ${digits(values[1])}${unit}` : "";
+  const n = values && digitsApart(values);
+  const range = values && values[1] > values[0] ? ` from ${digits(values[0], n)} to ${digits(values[1], n)}${unit}` : "";
   return `${name}${range}, ${number}`;
 }
 
@@ -33,11 +34,13 @@ function extremesInWords(measure, columns, axes) {
   // As of the speed of impacts where there is none.
   const missing = Array.from(columns[measure]).filter(Number.isNaN).length;
   const none = missing ? `, none at ${missing} value${missing === 1 ? "" : "s"}` : "";
-  if (span[0] === span[1]) return `${name} ${digits(span[0])}${unit} everywhere${none}`;
+  const everywhere = missing ? "wherever there is one" : "everywhere";
+  if (!(span[1] - span[0] > ROUNDING * Math.max(...span.map(Math.abs))))
+    return `${name} ${digits(span[0])}${unit} ${everywhere}${none}`;
   const at = (value) => {
     if (axes.length > 1 || Array.isArray(columns[axis.column])) return "";
     const where = columns[axis.column][columns[measure].indexOf(value)];
-    return ` (at ${digits(where)}${nameAndUnit(axis.column)[1]})`;
+    return ` (at ${digits(where, digitsApart(columns[axis.column]))}${nameAndUnit(axis.column)[1]})`;
   };
   return `${name} ${digits(span[0])}${at(span[0])} to ${digits(span[1])}${unit}${at(span[1])}${none}`;
 }
@@ -86,6 +89,14 @@ function directionsInWords(table, samples, axis) {
   return [rest, open ? stay : null].filter((part) => part).join("; ");
 }
 
+/** How many rows have no result, and what became of them; null where all have one. */
+function failedInWords({ columns, count }) {
+  const states = columns.status || [];
+  const failed = [...new Set(states)].filter((status) => status !== "ok");
+  const number = (status) => states.filter((one) => one === status).length;
+  return failed.length ? failed.map((status) => `${number(status)} of ${count} rows are ${status}`).join(", ") : null;
+}
+
 /** The sentence that heads the page of a sweep. */
 function sweptInWords(table, measures, attractors, samples, axisColumns) {
   const { axes, effects } = DATA.sweep;
@@ -99,6 +110,7 @@ function sweptInWords(table, measures, attractors, samples, axisColumns) {
     attractors && columns.attractor ? attractorsInWords(attractors) : null,
     ...(attractors ? [] : told.map((name) => extremesInWords(name, columns, axes))),
     axisColumns.length === 1 ? directionsInWords(table, samples, axisColumns[0]) : null,
+    failedInWords(table),
   ].filter((part) => part);
   return found.length ? `${varied}: ${found.join("; ")}` : varied;
 }

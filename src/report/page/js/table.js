@@ -105,18 +105,22 @@ function sortable(columns, rows, options = {}) {
 /** A column of words. */
 const wordColumn = (name, of) => ({ name, text: true, value: of, show: of });
 
-/** Columns of a table of the data, all of them or those named: [name, text of the header]. */
-function columnsOf(table, named) {
+/**
+ * Columns of a table of the data, all of them or those named: [name, text of the header]. Those of
+ * `whole` have as many digits as tell their values apart.
+ */
+function columnsOf(table, named, whole = []) {
   return named
     .filter(([name]) => table.columns[name])
     .map(([name, title]) => {
       const values = table.columns[name];
       const words = Array.isArray(values);
+      const n = whole.includes(name) && !words ? digitsApart(values) : 4;
       return {
         name: title,
         text: words,
         value: (i) => values[i],
-        show: (i) => (words ? values[i] || "–" : digits(values[i], 4)),
+        show: (i) => (words ? values[i] || "–" : digits(values[i], n)),
       };
     });
 }

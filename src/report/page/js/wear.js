@@ -20,6 +20,19 @@ function wearColumns(table) {
   return columns;
 }
 
+/** Curves that are shown at first, where all are too many: of the supports that are worn deepest. */
+const FIRST_CURVES = 6;
+
+/** The names of these curves; null where few are there, of which all may be shown. */
+function firstOfWear(columns, measures) {
+  const last = (name) => columns[name][columns[name].length - 1];
+  const of = (quantity) => measures.filter((name) => name.startsWith(quantity));
+  const deepest = of("depth_deepest");
+  if (deepest.length <= FIRST_CURVES / 2) return null;
+  const worst = (names) => [...names].sort((a, b) => last(b) - last(a)).slice(0, FIRST_CURVES);
+  return [...worst(deepest), ...worst(of("work_rate"))];
+}
+
 function wearSection() {
   const { answers, seeds, supports } = DATA.wear;
   const over = DATA.wear.over && {
@@ -32,6 +45,8 @@ function wearSection() {
   const table = tableOf(DATA.wear.years);
   const columns = wearColumns(table);
   const measures = Object.keys(columns).filter((name) => name !== "year" && !isHalfWidth(name));
+  const limit = DATA.wear.limit_m;
+  const marks = (unit) => (limit && unit === "mm" ? [{ y: 1e3 * limit, dash: [6, 4], label: "limit" }] : []);
   const tell = (i) =>
     [
       `${digits(columns.year[i], 4)} years`,
@@ -44,7 +59,7 @@ function wearSection() {
       ? `Means over ${seeds} histories, and as bands their 95 % intervals, by Student's t.`
       : "One history: without random loads and a start that scatters all are the same.",
     el("ul", {}, answers.map((answer) => el("li", {}, capitalised(answer)))),
-    measureCurves(columns, "year", measures, tell, () => {}, { over }),
+    measureCurves(columns, "year", measures, tell, () => {}, { over, first: firstOfWear(columns, measures), marks }),
   );
   const rows = Array.from({ length: columns.year.length }, (_, i) => i);
   const cell = (name) => ({
