@@ -4,7 +4,7 @@ use crate::error::{raise, wrong, wrong_type};
 use crate::json::loads;
 use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::Place;
-use crate::values::whole;
+use crate::values::{Reals, whole};
 use crate::work::{called_in_run, nested};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -419,8 +419,8 @@ impl Load {
     /// Load.table(<3 rows from 0.0 to 0.2 s>)
     #[staticmethod]
     #[pyo3(signature = (time, force, *, at=Place::Only), text_signature = "(time, force, *, at=None)")]
-    fn table(time: Vec<f64>, force: Vec<f64>, at: Place) -> PyResult<Self> {
-        load(sg::Load::table(sg::Table::new(time, force).map_err(raise)?), at, None)
+    fn table(time: Reals, force: Reals, at: Place) -> PyResult<Self> {
+        load(sg::Load::table(sg::Table::new(time.0, force.0).map_err(raise)?), at, None)
     }
 
     /// The force that a function of the time returns.

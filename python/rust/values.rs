@@ -23,6 +23,21 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Damping {
     }
 }
 
+/// A column of real numbers: those of an array of complex ones would lose their imaginary parts.
+pub struct Reals(pub Vec<f64>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Reals {
+    type Error = PyErr;
+
+    fn extract(column: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let kind = column.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.extract::<String>());
+        if kind.is_ok_and(|kind| kind == "c") {
+            return Err(wrong_type(&column, "real numbers"));
+        }
+        column.extract().map(Self)
+    }
+}
+
 /// Rayleigh damping, C = mass · M + stiffness · K (1/s, s).
 ///
 /// Parameters

@@ -12,7 +12,7 @@ from . import _core
 from ._core import Load, Rayleigh, Scene, Wall
 from ._keywords import keywords
 from ._matrix import Entries, lower
-from ._types import End, Place, check_number, whole
+from ._types import End, Place, check_number, real_numbers, whole
 
 
 class SceneOptions(TypedDict, total=False):
@@ -303,10 +303,10 @@ def modal(
     >>> sg.modal([12.0, 48.0], {"tip": [1.0, -1.0]}, ratios=0.01, walls=[sg.Wall.upper("stop", 1e-3, at="tip")])
     <Scene: 2 degrees of freedom, 1 wall, 0 loads, 1.0 s>
     """
-    omega = 2.0 * np.pi * np.asarray(frequencies, np.float64)
+    omega = 2.0 * np.pi * real_numbers("frequencies", frequencies)
     k = len(omega)
-    each = np.full(k, float(ratios)) if isinstance(ratios, (int, float)) else ratios
-    points = [(name, list(shape)) for name, shape in shapes.items()]
+    each = np.full(k, float(ratios)) if isinstance(ratios, (int, float)) else real_numbers("ratios", ratios)
+    points = [(name, real_numbers(f"the shape of {name!r}", shape).tolist()) for name, shape in shapes.items()]
     return _core._modal(omega, np.ones(k) if masses is None else masses, each, points).replace(**scene)
 
 

@@ -100,6 +100,14 @@ def known(name: str, given: Mapping[str, Any] | None, keys: Iterable[str]) -> di
     return dict(given or {})
 
 
+def real_numbers(name: str, values: Any) -> Array:
+    """``values`` as numbers, unless they are complex."""
+    found = np.asarray(values)
+    if np.iscomplexobj(found):
+        raise TypeError(f"{name}: expected real numbers; of complex modes only real ones have a place here")
+    return np.asarray(found, np.float64)
+
+
 def check_within(name: str, column: Array, end: float) -> None:
     """Refuses times, in s, before 0 or after ``end``."""
     beyond = column[(column < 0.0) | (column > end * (1.0 + 1e-12))]
