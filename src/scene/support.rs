@@ -183,6 +183,11 @@ impl Scene {
                     format!("one or more of the {} walls", self.walls.len()),
                 ));
             }
+            let shared = support.members(&self.walls).find(|(index, _)| self.support_of(*index) != Some(support));
+            if let Some((_, wall)) = shared {
+                let value = format!("{:?}, of which another support has {:?}", support.walls, wall.name);
+                return Err(Error::invalid(key("walls"), value, "walls that belong to no other support"));
+            }
             support.members(&self.walls).try_for_each(|(_, wall)| support.check_wall(wall))?;
             if support.hole(&self.walls).is_some() && support.walls.len() > 1 {
                 let value = format!("a round wall among {}", support.walls.len());
@@ -205,7 +210,7 @@ impl Scene {
                 check_row(&wall.name, &at.z)?;
                 check_planes(&wall.name, at)?;
                 centre.iter().try_for_each(|&x| finite(owner.clone().part("centre"), x))?;
-                self.check_hole(wall, &owner, *gap)?;
+                Self::check_hole(wall, &owner, *gap)?;
             }
         }
         Ok(())
@@ -220,20 +225,22 @@ impl Scene {
         })
     }
 
-    fn check_hole(&self, wall: &Wall, owner: &Subject, gap: f64) -> Result<()> {
+    fn check_hole(wall: &Wall, owner: &Subject, gap: f64) -> Result<()> {
         positive(owner.clone().part("gap"), gap)?;
         if !wall.law.is_linear() {
             let found = wall.law.kind();
             return Err(Error::invalid(owner.clone().part("law"), found, "a rigid or an elastic hole"));
         }
-        wall.law.validate(|part: &'static str| owner.clone().part(part))?;
-        if wall.holds_out(&self.initial.q) {
-            let distance = wall.coordinate(&self.initial.q);
-            let value = format!("{distance:?} m from the centre of the round support {:?}", wall.name);
-            let expected = format!("at most its gap, {gap:?} m");
-            return Err(Error::invalid(("initial state", "displacement"), value, expected));
-        }
-        Ok(())
+        wall.law.validate(|part: &'static str| owner.clone().part(part))
+    }
+
+    /// Refuses a start outside of a rigid hole.
+    pub(super) fn check_start_in_holes(&self) -> Result<()> {
+        let Some(wall) = self.walls.iter().find(|wall| wall.holds_out(&self.initial.q)) else { return Ok(()) };
+        let distance = wall.coordinate(&self.initial.q);
+        let value = format!("{distance:?} m from the centre of the round support {:?}", wall.name);
+        let expected = format!("at most its gap, {:?} m", wall.position());
+        Err(Error::invalid(("initial state", "displacement"), value, expected))
     }
 }
 
@@ -285,4 +292,24 @@ fn check_planes(name: &str, at: &PlaneRows) -> Result<()> {
         return Err(Error::invalid(Subject::support(name).part("at"), value, "a place that moves in both planes"));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::Symmetric;
+    use crate::scene::{Structure, Wall};
+
+    #[test]
+    fn a_wall_belongs_to_one_support() {
+        let identity = Symmetric::diagonal(&[1.0; 2]);
+        let structure = Structure { mass: identity.clone(), damping: Symmetric::zeros(2), stiffness: identity };
+        let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+        let hole = Wall::round("hole", at.clone(), 1e-3);
+        let mut scene = Scene::structure(structure).with_support("first", at.clone(), [0.0; 2], vec![hole]);
+        assert!(scene.validate().is_ok());
+        scene.supports.push(Support { name: "second".to_owned(), at, centre: [0.0; 2], walls: 0..1 });
+        let error = scene.validate().unwrap_err().to_string();
+        assert!(error.contains("of which another support has \"hole\""), "{error}");
+    }
 }

@@ -13,8 +13,7 @@ impl Scene {
     pub fn validate(&self) -> Result<()> {
         #[cfg(test)]
         counted::count();
-        self.system.validate()?;
-        positive("duration", self.duration)?;
+        self.validate_but_start()?;
         let n = self.system.degrees_of_freedom();
         for (part, values) in [("displacement", &self.initial.q), ("velocity", &self.initial.v)] {
             let key = || Subject::of("initial state").part(part);
@@ -27,6 +26,13 @@ impl Scene {
             }
             values.iter().try_for_each(|&x| finite(key(), x))?;
         }
+        self.check_start()
+    }
+
+    /// Checks everything but the initial state, as [`Scene::validate`] does.
+    pub(crate) fn validate_but_start(&self) -> Result<()> {
+        self.system.validate()?;
+        positive("duration", self.duration)?;
         for (index, load) in self.loads.iter().enumerate() {
             load.validate(index)?;
             self.check_row(|| Subject::nth("load", index), &load.at)?;
@@ -62,7 +68,6 @@ impl Scene {
             }
         }
         check_crossing(&self.walls)?;
-        self.check_start()?;
         self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
     }
 
@@ -90,7 +95,7 @@ impl Scene {
         let n = self.system.degrees_of_freedom();
         for &(i, weight) in row.entries() {
             if i >= n {
-                let least = format!("a degree of freedom from 0 to {}", n - 1);
+                let least = format!("a degree of freedom from 0 to {}", n.saturating_sub(1));
                 return Err(Error::invalid(owner().part("at"), i, least));
             }
             finite(owner().part("weight"), weight)?;
@@ -99,7 +104,7 @@ impl Scene {
     }
 
     fn check_start(&self) -> Result<()> {
-        let Some(wall) = self.wall_before(&self.initial.q) else { return Ok(()) };
+        let Some(wall) = self.wall_before(&self.initial.q) else { return self.check_start_in_holes() };
         let w = wall.row().dot(&self.initial.q);
         let relation = if wall.side() == Side::Upper { "at most" } else { "at least" };
         let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position(), wall.name);

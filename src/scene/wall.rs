@@ -316,6 +316,9 @@ impl Wall {
         if !self.is_round() {
             finite(key("position"), self.position())?;
         }
+        if let Face::Flat { direction: Some(degrees), .. } = self.face {
+            finite(key("direction"), degrees)?;
+        }
         self.law.validate(key)
     }
 }

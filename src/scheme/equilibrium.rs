@@ -52,7 +52,7 @@ const HELD: f64 = 1e-13;
 /// with no wall in the way, and where walls leave no place; those of [`Scene::validate`] but for
 /// the initial state.
 pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
-    scene.system.validate()?;
+    scene.validate_but_start()?;
     let structure = scene.system.structure();
     let n = scene.system.degrees_of_freedom();
     let mut force = vec![0.0; n];
@@ -228,6 +228,23 @@ mod tests {
     fn what_nothing_holds_and_nothing_pushes_stays_where_it_is() {
         assert_eq!(equilibrium(&Scene::oscillator(1.0, 0.0, 0.0)), Ok(vec![0.0]));
         assert_eq!(equilibrium(&floating(2.0, 50.0)), Ok(vec![0.0; 3]));
+    }
+
+    #[test]
+    fn an_invalid_scene_is_refused_but_for_its_start() {
+        let own = || Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("stop", 1e-3));
+        // Beyond the wall, where it may start: the answer takes its place.
+        assert_eq!(equilibrium(&own().with_initial(&[1.0], &[0.0])), Ok(vec![0.0]));
+        let row = Load { at: crate::scene::Row::dof(99), ..Load::constant(1.0) };
+        for (scene, words) in [
+            (own().with_load(row), "load 1: at is 99"),
+            (own().with_wall(Wall::lower("stop", -1.0)), "which another wall has"),
+            (own().with_wall(Wall::lower("low", f64::NAN)), "wall \"low\": position is NaN"),
+            (own().with_duration(-3.0), "duration is -3"),
+        ] {
+            let error = equilibrium(&scene).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
     }
 
     /// Three masses between springs, whose first and last stand at levers of two lengths.

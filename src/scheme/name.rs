@@ -37,7 +37,7 @@ struct Settings {
 
 impl Settings {
     fn parse(text: &str, keys: &[&str]) -> Result<Self> {
-        let mut settings = Self::default();
+        let (mut settings, mut given) = (Self::default(), Vec::new());
         for part in text.split(',').map(str::trim).filter(|part| !part.is_empty()) {
             let accepted = || format!("key=value with one of the keys {}", keys.join(", "));
             let (key, value) =
@@ -46,6 +46,10 @@ impl Settings {
                 let parsed = value.trim().parse::<f64>().ok().filter(|x| x.is_finite());
                 parsed.ok_or_else(|| Error::invalid(format!("scheme setting {key}"), value, "a finite number"))
             };
+            if given.contains(&key.trim()) {
+                return Err(Error::invalid("scheme setting", format!("{} twice", key.trim()), accepted()));
+            }
+            given.push(key.trim());
             match key.trim() {
                 key if !keys.contains(&key) => return Err(Error::invalid("scheme setting", key, accepted())),
                 "theta" => settings.theta = Some(number()?),
@@ -162,6 +166,7 @@ mod tests {
             ("penalty:damping=1", "damping without stiffness"),
             ("penalty:epsilon=1e-9,damping=1", "damping without stiffness"),
             ("penalty:epsilon=1e-9,stiffness=1", "epsilon and stiffness"),
+            ("moreau-jean:theta=0.5,theta=0.6", "theta twice"),
             ("penalty:epsilon=1e-9,integrator=leapfrog", "integrator"),
             ("leapfrog", "scheme"),
         ] {

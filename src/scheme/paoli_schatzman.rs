@@ -21,7 +21,8 @@
 //! If e differs between walls whose rows are linearly dependent (two masses and their distance),
 //! and one of them is penetrated, these bounds may contradict one another. With the same e for all
 //! they never do, since q⁺ = (1+e)q_a − e q⁻ satisfies them for every admissible q_a: such a step
-//! is made with the smallest e for all walls.
+//! is made with the smallest e for all walls. Of two walls at one place the bound of the smaller e
+//! is the tighter one and acts, where Moreau's law has the larger.
 
 use super::Counters;
 use super::body::Body;

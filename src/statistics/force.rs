@@ -104,13 +104,14 @@ pub struct Forces {
 
 impl Forces {
     /// For the walls of `scene` (as the scheme sees it), from the time `from` (s) to the end, with
-    /// the forces of rigid walls averaged over intervals of at most `averaging` (s).
+    /// the forces of rigid walls averaged over intervals of at most `averaging` (s); over a batch of
+    /// the window, where that is no length above 0.
     #[must_use]
     pub fn new(scene: &Scene, from: f64, averaging: f64) -> Self {
         let window = Window::new(scene, from);
         let batches = window.batches as f64;
         let span = window.from + window.length - window.first;
-        let stretches = (span / (batches * averaging) * (1.0 - 1e-9)).ceil().clamp(1.0, MOST_STRETCHES / batches);
+        let stretches = (span / (batches * averaging) * (1.0 - 1e-9)).ceil().min(MOST_STRETCHES / batches).max(1.0);
         let inner = window.batches as u64 * stretches as u64;
         let bin = span / inner as f64;
         // The first interval may begin before the window.

@@ -226,7 +226,8 @@ def matrices(
     Parameters
     ----------
     mass, stiffness : array of shape (n, n), or a sparse matrix of SciPy
-        Symmetric, kg and N/m. Degrees of freedom without mass are condensed.
+        Symmetric, kg and N/m. Degrees of freedom without mass are condensed: a rigid wall that pushes
+        them is a spring of their static compliance then, without restitution.
     damping : array of shape (n, n), sparse matrix, float, sequence of float, Rayleigh or None
         N s/m; or as in `Scene.replace`.
     **scene

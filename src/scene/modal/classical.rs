@@ -103,10 +103,14 @@ impl Structure {
 impl Modes {
     /// The damping of each mode, φᵀCφ = 2ζω (1/s), if C couples no modes: off the diagonal ΦᵀCΦ is
     /// at most 1e-10 of √(diagonal · diagonal). Shapes of equal ω are rotated among themselves to
-    /// achieve this. `None` if C couples modes; the shapes are then unchanged.
+    /// achieve this. `None` if C couples modes, or is of another size than the shapes; the shapes
+    /// are then unchanged.
     #[must_use]
     pub fn uncouple(&mut self, damping: &Symmetric) -> Option<Vec<f64>> {
         let k = self.count();
+        if self.shapes.len() != k || self.shapes.iter().any(|shape| shape.len() != damping.size()) {
+            return None;
+        }
         let c = self.project(damping);
         let strongest = c.diagonal().iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let coupled = |c: &DMatrix<f64>, i: usize, j: usize| {

@@ -80,6 +80,15 @@ class View {
   }
 }
 
+/** What is shown at first, in words, until another stretch is. */
+function firstShown(view, text) {
+  const words = el("span", {}, `shown: ${text} · `);
+  view.listeners.push(() => {
+    words.hidden = true;
+  });
+  return words;
+}
+
 /** Everything that is drawn: has draw(), and drawOver() for what follows the cursor. */
 const drawings = [];
 let scheduled = false;

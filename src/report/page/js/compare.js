@@ -33,7 +33,9 @@ function compareSection() {
     "Methods",
     "Every method on the same scene" +
       (reference ? `, against ${reference}${DATA.horizon ? " up to the horizon of prediction" : ""}` : "") +
-      (draws > 1 ? `: draw 1 of ${draws}.` : "."),
+      (draws > 1 ? `: draw 1 of ${draws}.` : ".") +
+      " The largest force of a method with rigid walls is the largest mean over a short stretch (--force-averaging)," +
+      " that of a penalty and of springs the largest value; max |u| is that of the recorded rows.",
     conclusionOf(DATA.compare.conclusion),
     sortable(columns, table.rows, { height: 60 + 2 * ROW * table.count, wrapped: true }),
     saveBar("compare.csv", () => linesOf(table)),

@@ -157,7 +157,8 @@ function branchPlot(points, choice, select) {
     el(
       "span",
       { class: "right help" },
-      `${part ? `shown: about ${part === "all" ? "the" : "most"} special points · ` : ""}drag to zoom · double click for all · click an orbit to see it`,
+      part ? firstShown(plot.view, `about ${part === "all" ? "the" : "most"} special points`) : null,
+      "drag to zoom · double click for all · click an orbit to see it",
     ),
   );
   return { plot, box: el("div", {}, bar, plot.box, keys) };

@@ -132,7 +132,8 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       el(
         "span",
         { class: "right help" },
-        `${view.part ? "shown: where curves bend · " : ""}drag to zoom · double click for all`,
+        view.part ? firstShown(view, "where curves bend") : null,
+        "drag to zoom · double click for all",
       ),
     ),
     units.flatMap(plotsOf),
