@@ -29,7 +29,6 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "wear": {
             "years": years.for_page(None),
             "answers": folder.manifest["answers"],
-            "limit_m": folder.manifest["limit_m"],
             "supports": names(&folder.manifest["supports"]),
             "seeds": older::histories(folder.manifest),
             "first": first,

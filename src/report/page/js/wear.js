@@ -45,7 +45,7 @@ function wearSection() {
   const table = tableOf(DATA.wear.years);
   const columns = wearColumns(table);
   const measures = Object.keys(columns).filter((name) => name !== "year" && !isHalfWidth(name));
-  const limit = DATA.wear.limit_m;
+  const { limit } = DATA.draws;
   const marks = (unit) => (limit && unit === "mm" ? [{ y: 1e3 * limit, dash: [6, 4], label: "limit" }] : []);
   const tell = (i) =>
     [

@@ -144,6 +144,7 @@ function wherePlot(supports, { label, limit, of }, body, ownEnds) {
     const floor = plot.sy(0);
     ctx.textAlign = "center";
     ctx.textBaseline = "bottom";
+    const names = [];
     supports.forEach(({ name, position }, i) => {
       const [value, half] = values[i];
       if (!Number.isFinite(value)) return;
@@ -164,8 +165,19 @@ function wherePlot(supports, { label, limit, of }, body, ownEnds) {
         ctx.lineTo(x, bottom);
         ctx.stroke();
       }
-      ctx.fillText(name, x, top - 4);
+      names.push({ name, value, x, y: top - 4, half: ctx.measureText(name).width / 2 + 3 });
     });
+    // Where there is no room for all names, those of the highest bars.
+    const placed = [];
+    const meets = (a, b) => Math.abs(a.x - b.x) < a.half + b.half && Math.abs(a.y - b.y) < 16;
+    for (const one of names.sort((a, b) => b.value - a.value)) {
+      if (placed.some((other) => meets(one, other))) continue;
+      placed.push(one);
+      ctx.fillStyle = clear(ink.paper, 0.7);
+      ctx.fillRect(one.x - one.half, one.y - 14, 2 * one.half, 15);
+      ctx.fillStyle = ink.ink;
+      ctx.fillText(one.name, one.x, one.y);
+    }
     ctx.strokeStyle = ink.wall;
     ctx.lineWidth = 4;
     ctx.beginPath();
