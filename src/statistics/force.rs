@@ -104,8 +104,8 @@ pub struct Forces {
 
 impl Forces {
     /// For the walls of `scene` (as the scheme sees it), from the time `from` (s) to the end, with
-    /// the forces of rigid walls averaged over intervals of at most `averaging` (s); over a batch of
-    /// the window, where that is no length above 0.
+    /// the forces of rigid walls averaged over intervals of at most `averaging` (s); over a batch
+    /// of the window, where that is no length above 0.
     #[must_use]
     pub fn new(scene: &Scene, from: f64, averaging: f64) -> Self {
         let window = Window::new(scene, from);

@@ -89,9 +89,9 @@ impl Derivatives {
     /// displacements and velocities of the probes at `times` (s, increasing, from 0 to the end).
     ///
     /// # Errors
-    /// As [`Derivatives::check`], [`Error::Invalid`] without keys and for times outside of the run or
-    /// not increasing, and errors of the exact scheme. A run that has no derivative from a time on is
-    /// none: see [`Derivatives::ended`].
+    /// As [`Derivatives::check`], [`Error::Invalid`] without keys and for times outside of the run
+    /// or not increasing, and errors of the exact scheme. A run that has no derivative from a time
+    /// on is none: see [`Derivatives::ended`].
     pub fn new(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
         let mut variation = KeyVariation::new(scene, tangents, times)?;
         if tangents.is_empty() {

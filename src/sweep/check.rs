@@ -85,6 +85,19 @@ impl Sweep {
         })
     }
 
+    /// Refuses fewer forcing periods than the measures need.
+    fn check_kept(&self, keep: u32) -> Result<()> {
+        let refuse = |expected: String| Err(Error::invalid("[run] keep", keep, expected));
+        let repeats = self.measures.contains(&Measure::Period);
+        match keep {
+            0 => refuse("one forcing period or more".to_owned()),
+            _ if repeats && (keep as usize) < strobe::LEAST_KEPT => {
+                refuse(format!("{} forcing periods or more for the measure period", strobe::LEAST_KEPT))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// An error for settings of time that contradict one another.
     pub(super) fn times(&self, base: &Case) -> Result<()> {
         let axes = || self.axes.iter().flat_map(|axis| &axis.targets);
@@ -96,14 +109,12 @@ impl Sweep {
         }
         match self.window {
             Window::Case => {}
-            Window::Periods { keep: 0, .. } => {
-                return Err(Error::invalid("[run] keep", 0, "one forcing period or more"));
-            }
             Window::Periods { settle, keep } if settle.checked_add(keep).is_none_or(|all| all == u32::MAX) => {
                 let found = format_args!("{settle} + {keep} periods");
                 return Err(Error::invalid("[run] settle and keep", found, "less than 2^32 - 1 periods in all"));
             }
-            Window::Periods { .. } => {
+            Window::Periods { keep, .. } => {
+                self.check_kept(keep)?;
                 base.check_repeats()?;
                 forcing::period(&base.scene)?;
             }
@@ -123,13 +134,6 @@ impl Sweep {
         let periods = matches!(self.window, Window::Periods { .. });
         if let Some(measure) = self.measures.iter().find(|measure| measure.needs_period()).filter(|_| !periods) {
             return Err(Error::invalid("[measure] columns", measure, PERIODS));
-        }
-        if let Window::Periods { keep, .. } = self.window
-            && self.measures.contains(&Measure::Period)
-            && (keep as usize) < strobe::LEAST_KEPT
-        {
-            let expected = format!("{} forcing periods or more for the measure period", strobe::LEAST_KEPT);
-            return Err(Error::invalid("[run] keep", keep, expected));
         }
         if self.samples == Some(Samples::Periods) && !periods {
             return Err(Error::invalid("[measure] samples", "\"periods\"", PERIODS));

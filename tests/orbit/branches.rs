@@ -55,7 +55,8 @@ fn a_branch_towards_restitution_0_ends_where_the_rebound_comes_back_to_its_wall(
     let family = |e: f64| Ok(source(5.0, e));
     let found = follow(&family, &settled(source(5.0, 0.8)), 0.8, [0.0, 1.0], (Switch::No, 0));
     assert_eq!(found.specials.len(), 1, "{:?}", values(&found));
-    // The branch is followed in units of 1, the width of the range: to 1e-14 of that, a few roundings.
+    // The branch is followed in units of 1, the width of the range: to 1e-14 of that, a few
+    // roundings.
     near(only(&found, Label::GrazingIn).point.value, 1.400_450_056_635_178_5e-4, 1e-10);
 }
 

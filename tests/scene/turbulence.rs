@@ -245,7 +245,8 @@ fn an_end_that_is_none_is_told_of_itself_and_not_of_a_random_load() {
 #[test]
 fn the_force_on_a_tube_does_not_depend_on_another_one() {
     let own = Embedded::named("two-tubes").unwrap().case().unwrap();
-    // Sixteen modes of each plane, half of them of either tube; the fields along y and z of the left.
+    // Sixteen modes of each plane, half of them of either tube; the fields along y and z of the
+    // left.
     assert_eq!(own.scene.loads.len(), 32);
     // Equal tubes share frequencies; one that is lighter or heavier changes the order of all modes.
     for added_mass in [0.564_999_9, 0.565_000_1, 0.6] {

@@ -18,9 +18,9 @@
 //! with independent phases that follow from the seed: the simulation of several correlated
 //! processes of Shinozuka & Deodatis 1991 (doi:10.1115/1.3119501). L is lower triangular in the
 //! order of the modes, so that the forces on the first modes stay as more modes are added, and the
-//! forces depend neither on the step nor on the scheme, nor on other bodies. The mean square of a force over T scatters
-//! from seed to seed by about 1/√(lines), where its lines have contributions of several modes; that
-//! of the first mode, whose lines have one, does not scatter.
+//! forces depend neither on the step nor on the scheme, nor on other bodies. The mean square of a
+//! force over T scatters from seed to seed by about 1/√(lines), where its lines have contributions
+//! of several modes; that of the first mode, whose lines have one, does not scatter.
 
 #[cfg(feature = "cli")]
 mod asked;

@@ -196,8 +196,8 @@ impl WearHistories {
         (!times.is_empty()).then(|| TimeOfLimit { time_s, half_width_95_s: half_width.or_else(largest) })
     }
 
-    /// When a quantity of a support reaches `limit`: by the mean and in each history, or else at the
-    /// last rates.
+    /// When a quantity of a support reaches `limit`: by the mean and in each history, or else at
+    /// the last rates.
     #[must_use]
     pub fn limit_reached(&self, support: usize, limit: f64, quantity: WearQuantity) -> LimitReached {
         let mean = self.reaches(support, limit, quantity);
