@@ -22,6 +22,7 @@ use crate::error::counted;
 use crate::residual::Energy;
 use crate::scene::{Checked, Scene};
 use crate::scheme::{Counters, Realised, Scheme};
+use crate::statistics::WearStatistics;
 use crate::step::Contact;
 
 /// A residual of the energy ledger above this share of the energy exchanged gets a note, and so do
@@ -148,6 +149,8 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
         ));
     }
     notes.extend(of_counters(&run.scheme, &run.counters));
+    let wear = R::statistics(&run.statistics).map_or(&[][..], |statistics| &statistics.wear);
+    notes.extend(driving_friction(scene, wear));
     let touched = run.recorded().is_none_or(|trajectory| !trajectory.contacts().is_empty());
     notes.extend(setup(scene, &run.scheme, run.grid.step, touched));
     notes
@@ -195,6 +198,22 @@ fn of_counters(scheme: &Scheme, counters: &Counters) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// A note on supports whose friction adds energy to the motion in the mean.
+fn driving_friction<'a>(scene: &'a Scene, wear: &'a [WearStatistics]) -> impl Iterator<Item = String> + 'a {
+    scene.supports.iter().zip(wear).filter_map(|(support, wear)| {
+        let added = -wear.friction_power_w;
+        let size = support.friction(&scene.walls).sliding * wear.work_rate_w;
+        (added > WORTH_SAYING * size).then(|| {
+            format!(
+                "friction at the support {:?} adds {added:.3e} W to the motion: where several of its flats are struck \
+                 at once their rebounds drive the sliding, and the work rate there is too large; a smaller \
+                 restitution or elastic flats tell by how much",
+                support.name
+            )
+        })
+    })
 }
 
 /// A note on a lasting contact that is open at the end of the run, if the structure then stands

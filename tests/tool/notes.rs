@@ -387,3 +387,24 @@ fn values_of_a_beam_in_other_units_have_a_note() {
         assert!(notes[0].starts_with(expected), "{notes:?}");
     }
 }
+
+/// Between two flats at 120 degrees rebounds by restitution press both, and drive the sliding: of
+/// 0.205 J of the body friction alone would take 0.3 times the work, 0.235 J.
+#[test]
+fn friction_that_drives_the_motion_has_a_note() {
+    let said = |restitution: &str| {
+        let text = format!(
+            "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 0.0\n[[support]]\n\
+             name = \"corner\"\nshape = \"flats\"\ndirections = [0.0, 120.0]\ngap = 1e-3\n\
+             restitution = {restitution}\nfriction = 0.3\n[initial]\n\
+             displacement = {{ y = 0.001, z = 0.00173205080 }}\nvelocity = {{ y = 0.5, z = 0.4 }}\n[time]\n\
+             end = 0.01\nstep = 1e-4\n"
+        );
+        let case = signorini::case::CaseFile::from_text(&text, "corner.toml", ".").case().unwrap();
+        let run = run(&case.scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-4)).unwrap();
+        let adds = run.statistics.wear[0].friction_power_w < 0.0;
+        let note = run.cautions.iter().any(|note| note.starts_with("friction at the support \"corner\" adds"));
+        (adds, note)
+    };
+    assert_eq!((said("0.5"), said("0.0")), ((true, true), (false, false)));
+}
