@@ -25,8 +25,11 @@ function edgesOf(values, log) {
   return edges.map(from);
 }
 
+/** Half the size of the square of a row that stands alone, in pixels. */
+const POINT = 6;
+
 /**
- * A map of cells. Options: x, y (labels), xs, ys (values of each row of the table), shows(i) whether
+ * A map of cells, or of points where rows stand alone, as in a random design. Options: x, y (labels), xs, ys (values of each row of the table), shows(i) whether
  * a row is among those drawn, toneOf(i) an RGB triple, tell(i) the text of a cell, pick(i), height,
  * beside(ctx, plot). Its `refill` draws the rows that are shown by then.
  */
@@ -42,18 +45,24 @@ function cellMap(options) {
       if (!options.shows || options.shows(i)) cells.set(`${index[0].get(options.xs[i])} ${index[1].get(options.ys[i])}`, i);
   };
   refill();
+  const alone = axes[0].length * axes[1].length > 4 * options.xs.length;
   const rectangle = (plot, i) => {
+    if (alone) return [plot.sx(options.xs[i]) - POINT, plot.sy(options.ys[i]) - POINT, 2 * POINT, 2 * POINT];
     const [a, b] = [index[0].get(options.xs[i]), index[1].get(options.ys[i])];
     const [x0, x1] = [plot.sx(edges[0][a]), plot.sx(edges[0][a + 1])];
     const [y0, y1] = [plot.sy(edges[1][b + 1]), plot.sy(edges[1][b])];
     return [x0, y0, x1 - x0, y1 - y0];
   };
   const draw = (ctx, plot) => {
+    ctx.strokeStyle = ink.faint;
+    ctx.lineWidth = 1;
     for (const i of cells.values()) {
       const [x, y, w, h] = rectangle(plot, i);
       ctx.fillStyle = `rgb(${options.toneOf(i)})`;
       // Half a pixel more, so that no seam shows between cells.
       ctx.fillRect(x, y, w + 0.5, h + 0.5);
+      // The least tone is hardly one of the paper.
+      if (alone) ctx.strokeRect(x, y, w, h);
     }
   };
   const plot = new Plot({
@@ -67,11 +76,20 @@ function cellMap(options) {
     beside: options.beside,
   });
   plot.limits = () => {
-    [plot.X, plot.Y] = edges.map((list) => [list[0], list[list.length - 1]]);
+    [plot.X, plot.Y] = edges.map((list, k) => {
+      const ends = [list[0], list[list.length - 1]];
+      return alone && !logs[k] ? padded(ends, 0.04) : ends;
+    });
   };
   const tip = el("div", { class: "tip", hidden: true });
   plot.box.append(tip);
+  const pointAt = ([x, y]) =>
+    [...cells.values()].reverse().find((i) => {
+      const [left, top, w, h] = rectangle(plot, i);
+      return x >= left && x <= left + w && y >= top && y <= top + h;
+    });
   const cellAt = (at) => {
+    if (alone) return pointAt(at);
     const [x, y] = [plot.tx(at[0]), plot.ty(at[1])];
     return cells.get(`${before(edges[0], x)} ${before(edges[1], y)}`);
   };

@@ -235,9 +235,12 @@ function columnChoice(label, names, choice, fill) {
 }
 
 /** The rows with one value of each of the axes `names`, which a map does not show: whether a row is
- *  among them, and the controls that choose the values. */
+ *  among them, and the controls that choose the values. Of a random design, in which hardly two rows
+ *  share a value, all are. */
 function sliceOf(columns, names, onChange) {
-  const several = names.map((name) => [name, [...new Set(columns[name])]]).filter(([, values]) => values.length > 1);
+  const several = names
+    .map((name) => [name, [...new Set(columns[name])]])
+    .filter(([name, values]) => values.length > 1 && values.length <= columns[name].length / 2);
   const chosen = new Map(several.map(([name, values]) => [name, values[0]]));
   const shown = (value) => (typeof value === "number" ? digits(value, 6) : `${value}`);
   const controls = several.flatMap(([name, values]) => {
