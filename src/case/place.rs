@@ -193,6 +193,8 @@ impl Builder<'_> {
                 self.row_there(&place).map_err(|error| self.at_value(key, error, value))?;
                 Ok(place)
             }
+            // A body of one degree of freedom has one place.
+            [] if self.n == 1 => Ok(Place::Dof(0)),
             [] => Err(self.refuse(at.span(), key, &self.takes(located))),
             [_, .., last] => {
                 let title = format!("{key} gives more than one place");

@@ -56,6 +56,11 @@ step = 1e-3
 "#;
 
 #[test]
+fn a_body_of_one_degree_of_freedom_needs_no_more_than_its_name() {
+    assert_eq!(case(&CARTS.replace(", dof = 0", "")).scene, case(CARTS).scene);
+}
+
+#[test]
 fn two_carts_collide_as_momentum_and_restitution_say() {
     // Momentum 2 N s stays, and the relative velocity of 2 m/s becomes −1 m/s: −1/4 and 3/4 m/s.
     let case = case(CARTS);

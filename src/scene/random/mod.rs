@@ -37,7 +37,8 @@ pub enum Density {
 ///
 /// with phases φ_i that are uniform and independent and follow from the seed: Shinozuka & Deodatis
 /// 1991 (doi:10.1115/1.3119501). The amplitudes are deterministic: every realisation has the mean
-/// square that was asked for, while random amplitudes would scatter it. By the central limit
+/// square that was asked for, of points Σ S(f_i) Δf, where a line at an end of the band counts in
+/// full, while random amplitudes would scatter it. By the central limit
 /// theorem the values are nearly Gaussian where there are many lines.
 ///
 /// The force is a table of linear pieces, at least 16 in the period of the fastest line, so every
@@ -49,11 +50,10 @@ pub enum Density {
 /// ```
 /// use signorini::{Density, RandomForce};
 ///
-/// let force = RandomForce { density: Density::Flat { rms: 3.0, from: 1.0, to: 50.0 }, seed: 7, stream: 0 };
-/// let table = force.table(4.0)?;
-/// let values: Vec<f64> = (0..40_000).map(|i| table.piece(1e-4 * f64::from(i)).0).collect();
-/// let square = values.iter().map(|f| f * f).sum::<f64>() / values.len() as f64;
-/// assert!((square.sqrt() - 3.0).abs() < 1e-4);
+/// let force = RandomForce { density: Density::Flat { rms: 3.0, from: 1.0, to: 50.0 }, seed: 7,
+/// stream: 0 }; let table = force.table(4.0)?; let values: Vec<f64> = (0..40_000).map(|i|
+/// table.piece(1e-4 * f64::from(i)).0).collect(); let square = values.iter().map(|f| f *
+/// f).sum::<f64>() / values.len() as f64; assert!((square.sqrt() - 3.0).abs() < 1e-4);
 /// # Ok::<(), signorini::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
