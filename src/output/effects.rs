@@ -1,6 +1,7 @@
 //! What one per cent more of a key changes: keys, numbers with their derivatives, and their table.
 
 use super::table::Table;
+use crate::error::amount;
 
 /// A key by which a run or an orbit is differentiated.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,7 +100,7 @@ pub(super) fn table(keys: &[DerivativeKey], effects: &[Effect]) -> Option<Table>
                 (true, false) => format!("{:+.3e} {}", unit * by + 0.0, one.unit).trim_end().to_owned(),
             }
         };
-        let value = format!("{:.4e} {}", one.value, one.unit).trim_end().to_owned();
+        let value = format!("{} {}", amount(one.value, 5), one.unit).trim_end().to_owned();
         let own = [one.wall.clone(), one.words.clone(), value];
         own.into_iter().chain(keys.iter().zip(&shares).zip(&one.by).map(cell)).collect()
     };

@@ -16,6 +16,8 @@ _ASYMMETRY = 1e-8
 
 def lower(name: str, matrix: Any) -> tuple[int, Entries]:
     """Size and the entries of the lower triangle of a symmetric matrix, means of both triangles."""
+    if np.ma.is_masked(matrix):
+        raise ValueError(f"{name} matrix has masked entries; expected all of them")
     if hasattr(matrix, "tocoo"):
         coo = matrix.tocoo()
         shape, rows, columns, values = coo.shape, coo.row, coo.col, coo.data

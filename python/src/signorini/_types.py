@@ -102,6 +102,8 @@ def known(name: str, given: Mapping[str, Any] | None, keys: Iterable[str]) -> di
 
 def real_numbers(name: str, values: Any) -> Array:
     """``values`` as numbers, unless they are complex."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked entries; expected all of them")
     found = np.asarray(values)
     if np.iscomplexobj(found):
         raise TypeError(f"{name}: expected real numbers; of complex modes only real ones have a place here")
