@@ -22,6 +22,8 @@ function coveredByCurves(plot) {
 function markPlaces(plot, mark, width) {
   const { x0, x1, y0, y1 } = plot;
   if (mark.x === undefined) {
+    const height = plot.sy(mark.y);
+    if (height < y0 - 1 || height > y1 + 1) return [];
     const at = (off) => clamp(plot.sy(mark.y) + off, y0 + 8, y1 - 8);
     const ends = [mark.side === "lower" ? 9 : -9].flatMap((off) => [
       [x1 - 9, at(off), "right"],

@@ -76,6 +76,9 @@ const horizonMark = (label) => ({
   label: label ? "horizon of prediction" : "",
 });
 
+/** A wall beyond this multiple of the motion is no part of its drawing at first. */
+const FAR_WALL = 8;
+
 /** Displacement or velocity ("Q" or "V") of a watched place. */
 function motionPlot(index, key, several) {
   const probe = lead.probes[index];
@@ -85,7 +88,10 @@ function motionPlot(index, key, several) {
     const shown = runs
       .filter((run) => run.shown)
       .flatMap((run) => run.probes[index].extents[key].map((x) => x * factor));
-    return padded(extent([...shown, ...marks.map((mark) => mark.y)]), 0.13);
+    // Walls that are far beyond the motion would make a line of it.
+    const most = Math.max(...shown.map(Math.abs));
+    const near = marks.filter(({ y }) => most === 0 || Math.abs(y) <= FAR_WALL * most);
+    return padded(extent([...shown, ...near.map(({ y }) => y)]), 0.13);
   };
   const of = key === "Q" ? unit : `${unit}/s`;
   const scaled = (values) => values.map((x) => x * factor);
