@@ -97,6 +97,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   const plotsOf = (unit) => {
     const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
     if (!items.some(({ shown }) => shown)) items[0].shown = true;
+    if (first) items.sort((a, b) => b.shown - a.shown);
     const shared = items.filter(({ name }) => over && over.columns[name] && !Array.isArray(over.columns[name]));
     const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
     const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
