@@ -107,6 +107,8 @@ impl Judged {
             if let Some(share) = self.walls.get_mut(contact.wall) {
                 share.contacts += 1;
                 share.approach_speed = share.approach_speed.max(contact.approach_speed);
+                // Between two instants of the motion the force may be larger than at both.
+                share.peak_force = contact.peak_force.map_or(share.peak_force, |peak| share.peak_force.max(peak.abs()));
             }
         }
     }

@@ -150,7 +150,8 @@ pub fn force_remark(case: &Case, comparison: &Comparison) -> Option<String> {
     let springs = comparison.rows.iter().any(|row| matches!(row.method.scheme, Scheme::Penalty { .. }));
     (rigid && springs).then(|| {
         format!(
-            "largest force: at rigid walls the largest mean over {:e} s, of a penalty's springs that at an instant",
+            "largest force: at rigid walls the largest mean over {:e} s, or over a step that is longer, of a penalty's \
+             springs that at an instant",
             case.time.force_averaging
         )
     })

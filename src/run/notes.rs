@@ -156,6 +156,27 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
     notes
 }
 
+/// That forces of rigid walls are averaged over the steps of a scheme that spreads impulses over
+/// them, where these are longer than the stretch `asked` for, s.
+pub(super) fn averaged_over_steps<J: Judging, R: Recording>(
+    scene: &Scene,
+    run: &Run<J, R>,
+    [asked, by]: [f64; 2],
+) -> Option<String> {
+    let statistics = R::statistics(&run.statistics)?;
+    let springs = matches!(run.scheme, Scheme::Penalty { .. });
+    let mut walls = scene.walls.iter().zip(&statistics.walls).filter(|_| !springs);
+    let struck = walls.any(|(wall, statistics)| wall.law.is_rigid() && statistics.contacts > 0);
+    (by > asked && struck).then(|| {
+        format!(
+            "RMS and largest forces at rigid walls are means over the step, {by:e} s, and not over {asked:e} s \
+             (--force-averaging): {} knows an impulse no better than its step, and both grow as the step falls; \
+             use a smaller step, or located",
+            run.scheme.entry().name
+        )
+    })
+}
+
 /// Notes on the counters of steps, of round holes and of friction.
 fn of_counters(scheme: &Scheme, counters: &Counters) -> Vec<String> {
     let mut notes = Vec::new();

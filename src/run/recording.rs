@@ -75,7 +75,7 @@ impl Recording for Recorded {
         let scene = stepper.scene();
         RunRecorder {
             rows: Recorder::new(scene, rows, &start.q, &start.v),
-            forces: Forces::new(scene, time.statistics_from, time.force_averaging),
+            forces: Forces::new(scene, time.statistics_from, stepper.force_averaging(time.force_averaging)),
             wear: WearTally::new(scene, time.statistics_from, time.sectors),
         }
     }

@@ -276,6 +276,13 @@ impl Stepper {
         self.kernel.step(self.index).v
     }
 
+    /// The stretch (s) over which forces of rigid walls can be averaged where `asked` is asked for:
+    /// of a scheme that spreads an impulse over its step none shorter than that.
+    pub(crate) fn force_averaging(&self, asked: f64) -> f64 {
+        let knows_instants = self.scheme.is_exact() || self.contract.divides;
+        if knows_instants { asked } else { asked.max(self.step) }
+    }
+
     /// The scene that the scheme computes: for a penalty, with springs in place of rigid walls.
     #[must_use]
     pub fn scene(&self) -> &Scene {

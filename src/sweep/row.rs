@@ -176,7 +176,7 @@ impl Plan {
             if exact { TimeGrid::exact(scene.duration, &time) } else { TimeGrid::stepping(scene.duration, &time) }?;
         let mut stepper = Stepper::by(scene, method, grid.step)?;
         let start = stepper.state();
-        let mut observer = RowObserver::new(&self.sweep, stepper.scene(), &time, &start)?;
+        let mut observer = RowObserver::new(&self.sweep, &stepper, &time, &start)?;
         let mut judge = judged.then(|| {
             let seen = stepper.checked();
             Judge::over(seen.shared(), seen.wall_masses(), stepper.contract(), grid.step, (&start.q, &start.v))

@@ -13,6 +13,7 @@ use crate::order::sort_by_number;
 use crate::output::through;
 use crate::run::notes;
 use crate::scene::{Checked, Scene, State};
+use crate::scheme::Stepper;
 use crate::statistics::{Forces, Statistics, WallStatistics, WearStatistics, WearTally};
 use crate::step::{Contact, Step};
 use crate::study::attractor::{self, MOST_FREEDOM};
@@ -46,9 +47,10 @@ pub(super) struct RowObserver {
 }
 
 impl RowObserver {
-    /// An observer of a row that begins at `start`; `scene` is that of the stepper, in which a
-    /// penalty's walls are springs.
-    pub fn new(sweep: &Sweep, scene: &Scene, time: &TimeOptions, start: &State) -> Result<Self> {
+    /// An observer of a row that `stepper` begins at `start`.
+    pub fn new(sweep: &Sweep, stepper: &Stepper, time: &TimeOptions, start: &State) -> Result<Self> {
+        // That in which a penalty's walls are springs.
+        let scene = stepper.scene();
         let any = |test: fn(Measure) -> bool| sweep.measures.iter().any(|measure| test(*measure));
         let from = time.statistics_from;
         let strobe = match sweep.window {
@@ -67,7 +69,8 @@ impl RowObserver {
         Ok(Self {
             from,
             contacts: Vec::new(),
-            forces: any(Measure::sees_force).then(|| Forces::new(scene, from, time.force_averaging)),
+            forces: any(Measure::sees_force)
+                .then(|| Forces::new(scene, from, stepper.force_averaging(time.force_averaging))),
             wear: any(Measure::sees_sliding).then(|| WearTally::new(scene, from, time.sectors)),
             motion: any(Measure::sees_motion).then(|| Motion::new(scene, from, start, speeds)),
             strobe,

@@ -543,3 +543,20 @@ fn a_flight_after_which_free_motion_repeats_itself_has_no_orbit_in_closed_form()
     let periods: Vec<u32> = found.iter().map(|one| one.periods).collect();
     assert!(!found.is_empty() && periods.iter().all(|n| n % 2 == 1), "{found:?}");
 }
+
+#[test]
+fn the_largest_force_of_a_short_contact_is_not_missed_between_the_instants_of_the_motion() {
+    // A stop of 1e9 N/m without a dashpot pushes for 0.1 ms of a period of 0.4 s.
+    let scene = Scene::oscillator(1.0, 4.0, 100.0)
+        .with_wall(Wall::upper("pad", 5e-3).with_elasticity(1e9, 0.0))
+        .with_load(Load::harmonic(10.0, 2.5, 0.0));
+    let problem = Problem::new(scene).unwrap();
+    let orbit = problem.settled(2000).unwrap();
+    let judged = problem.judge(&orbit, 100).unwrap();
+    let share = &judged.walls[0];
+    assert!(judged.holds() && share.contacts >= 1, "{share:?}");
+    // All of the energy m v²/2 at the face goes into the stop, but for what the load and the spring
+    // do over 10 um, a thousandth of it and less.
+    let expected = share.approach_speed * (1e9_f64 * 1.0).sqrt();
+    assert!((share.peak_force / expected - 1.0).abs() < 2e-3, "{share:?} for {expected}");
+}
