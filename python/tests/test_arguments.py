@@ -244,3 +244,23 @@ def test_every_keyword_of_a_scene_is_known_to_its_builder() -> None:
     options: dict[str, Any] = {"walls": [], "loads": [], "probes": {}, "displacement": 0.0, "velocity": 0.0}
     assert sg.oscillator(mass=1.0, damping=0.2, stiffness=100.0, duration=2.0, **options).duration == 2.0
     assert sg.chain([1.0, 1.0], springs=[1e4], damping=0.01, modes=1, static_correction=False).degrees_of_freedom == 1
+
+
+def test_complex_and_masked_numbers_are_refused_rather_than_read_in_part() -> None:
+    masked = np.ma.masked_greater([1.0, 5.0], 3.0)
+    calls: list[tuple[Callable[[], object], type[Exception], str]] = [
+        (lambda: sg.modal([1.0, 2.0], {"tip": np.array([1.0 + 1.0j, 2.0])}), TypeError, "'tip' has complex numbers"),
+        (lambda: sg.modal(np.array([1.0, 2.0j]), {"tip": [1.0, 2.0]}), TypeError, "frequencies has complex numbers"),
+        (lambda: sg.Load.table([0.0, 1.0], np.array([1.0 + 1.0j, 2.0])), TypeError, "expected real numbers"),
+        (lambda: sg.matrices(np.eye(2), None, np.ma.masked_greater(np.diag([1.0, 5.0]), 3.0)), ValueError, "stiffness matrix has masked entries"),
+        (lambda: sg.modal(masked, {"tip": [1.0, 2.0]}), ValueError, "frequencies has masked entries"),
+    ]
+    for call, error, words in calls:
+        with pytest.raises(error, match=words):
+            call()
+
+
+def test_a_case_takes_any_text() -> None:
+    system = {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 1.0}}
+    case = sg.case({"title": "\U0001d714 \u00fc \"quoted\"", "system": system, "time": {"end": 1.0, "step": 0.1}})
+    assert case.title == "\U0001d714 \u00fc \"quoted\""

@@ -129,9 +129,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         cautions: Vec::new(),
         unsettled: None,
     };
-    run.cautions = notes::cautions(scene, &run);
     let asked = options.time.force_averaging;
-    run.cautions.extend(notes::averaged_over_steps(scene, &run, [asked, stepper.force_averaging(asked)]));
+    run.cautions = notes::cautions(scene, &run, [asked, stepper.force_averaging(asked)]);
     run.unsettled = R::statistics(&run.statistics).and_then(|statistics| notes::unsettled(scene, statistics));
     let limits = run.cautions.iter().chain(&run.unsettled).cloned();
     run.notes = notes::remarks(scene, &run).into_iter().chain(limits).collect();

@@ -125,8 +125,9 @@ fn of_restitution(scene: &Scene, scheme: &Scheme) -> Option<String> {
     }
 }
 
-/// What limits the use of the results.
-pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
+/// What limits the use of the results; `averaging` is the stretch (s) that was asked for, and that
+/// over which forces of rigid walls are averaged.
+pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>, averaging: [f64; 2]) -> Vec<String> {
     let mut notes: Vec<String> = of_restitution(scene, &run.scheme).into_iter().collect();
     if let Some(residuals) = run.judged() {
         notes.extend(of_energy(&residuals.energy, run.recorded().map(|t| arrived(scene, t.contacts()))));
@@ -151,6 +152,7 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
     notes.extend(of_counters(&run.scheme, &run.counters));
     let wear = R::statistics(&run.statistics).map_or(&[][..], |statistics| &statistics.wear);
     notes.extend(driving_friction(scene, wear));
+    notes.extend(averaged_over_steps(scene, run, averaging));
     let touched = run.recorded().is_none_or(|trajectory| !trajectory.contacts().is_empty());
     notes.extend(setup(scene, &run.scheme, run.grid.step, touched));
     notes
@@ -158,7 +160,7 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
 
 /// That forces of rigid walls are averaged over the steps of a scheme that spreads impulses over
 /// them, where these are longer than the stretch `asked` for, s.
-pub(super) fn averaged_over_steps<J: Judging, R: Recording>(
+fn averaged_over_steps<J: Judging, R: Recording>(
     scene: &Scene,
     run: &Run<J, R>,
     [asked, by]: [f64; 2],

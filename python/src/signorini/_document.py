@@ -93,7 +93,12 @@ def _is_list_of_tables(value: Any) -> bool:
 
 
 def _key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _quoted(key)
+
+
+def _quoted(text: str) -> str:
+    """A text as TOML, which has no surrogates."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _value(key: str, value: Any) -> str:
@@ -101,7 +106,7 @@ def _value(key: str, value: Any) -> str:
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if isinstance(value, str):
-        return json.dumps(value)
+        return _quoted(value)
     if hasattr(value, "tolist"):  # NumPy's arrays and numbers.
         value = value.tolist()
     if isinstance(value, bool):

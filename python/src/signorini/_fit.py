@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ._core import ResultWarning, RunError, Scene
 from ._derivative import Derivative, Keys, Source, found, resolved
-from ._types import Array, check_within, known
+from ._types import Array, check_within, known, real_numbers
 from ._types import times as checked_times
 
 _OF_CONTACTS = ("start", "approach_speed", "impulse")
@@ -96,7 +96,7 @@ class _Column:
 
 
 def _numbers(name: str, values: Any) -> Array:
-    column = np.atleast_1d(np.asarray(values, np.float64))
+    column = np.atleast_1d(real_numbers(name, values))
     if column.ndim != 1 or not np.isfinite(column).all():
         raise ValueError(f"{name} has the shape {column.shape}; expected a column of finite numbers")
     return column
@@ -107,7 +107,7 @@ def _errors(name: str, values: Array, error: Mapping[str, Any] | None, several: 
         if several:
             raise ValueError(f"error has no {name}; expected a standard error for each kind of data")
         return np.ones_like(values)
-    errors = np.asarray(error[name], np.float64)
+    errors = real_numbers(f"error of {name}", error[name])
     if errors.shape not in ((), values.shape):
         raise ValueError(f"error of {name} has the shape {errors.shape}; expected a number, or one for each datum")
     errors = np.broadcast_to(errors, values.shape)

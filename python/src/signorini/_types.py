@@ -106,7 +106,7 @@ def real_numbers(name: str, values: Any) -> Array:
         raise ValueError(f"{name} has masked entries; expected all of them")
     found = np.asarray(values)
     if np.iscomplexobj(found):
-        raise TypeError(f"{name}: expected real numbers; of complex modes only real ones have a place here")
+        raise TypeError(f"{name} has complex numbers; expected real ones")
     return np.asarray(found, np.float64)
 
 
@@ -119,7 +119,7 @@ def check_within(name: str, column: Array, end: float) -> None:
 
 def times(name: str, values: Any, end: float) -> Array:
     """``values`` as times, unless some are before 0 or after ``end``, or one is not after the last."""
-    column = np.atleast_1d(np.asarray(values, np.float64))
+    column = np.atleast_1d(real_numbers(name, values))
     if column.ndim != 1 or not np.isfinite(column).all():
         raise ValueError(f"{name}: expected a column of finite times, in s")
     check_within(name, column, end)

@@ -80,12 +80,25 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let [refinement, truncation] =
         [checked_line("refinement", refinement.as_ref()), checked_line("truncation", truncation.as_ref())];
     let [modes, accuracy] = [checked_line("modes", modes.as_ref()), checked_line("accuracy", accuracy.as_ref())];
-    answer.messages([refinement, truncation, modes, accuracy].into_iter().flatten());
+    let order = refinement.as_ref().and_then(|_| first_order(&method));
+    answer.messages([refinement, order, truncation, modes, accuracy].into_iter().flatten());
     if shortfall.is_some() {
         answer.close_with(", kept in spite of the error below");
     }
     answer.fall_short(shortfall);
     Ok(answer)
+}
+
+/// What the refinement by a scheme of order 1 means.
+fn first_order(method: &Method) -> Option<String> {
+    let entry = method.scheme.entry();
+    (entry.order == Some(1)).then(|| {
+        format!(
+            "{} is of order 1: its error is about twice what half the step changes, and more where changes of many \
+             impacts cancel",
+            entry.name
+        )
+    })
 }
 
 /// The run, and the study of realisations where one is wanted.
