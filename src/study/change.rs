@@ -25,7 +25,7 @@ pub struct Change {
 
 /// Changes at one wall or round support, over the window of the statistics. Each is relative to the
 /// largest value at any wall of the scene, or to the value of a single impact at the largest speed
-/// v at this wall if that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]);
+/// v at this wall in the window if that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]);
 /// so a wall that is hardly touched does not dominate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -82,7 +82,7 @@ impl Change {
         let length = difference::error_length(scene, against);
         let rows = difference::rows(run, against).take_while(|(t, _)| *t <= until * (1.0 + 1e-12));
         let displacement = rows.fold(0.0, |largest, (_, difference)| worse(largest, difference / length));
-        let speeds = wall_speeds(scene, against);
+        let speeds = wall_speeds(scene, against, from);
         let masses = scene.wall_masses();
         let window = statistics[1].to_s - from;
         let numbers = |index: usize| [run, against].map(|t| number(scene, t.contacts(), index, from));

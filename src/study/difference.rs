@@ -35,16 +35,19 @@ pub(crate) fn error_length(scene: &Scene, against: &Trajectory) -> f64 {
     scene.gap().or_else(largest).unwrap_or_else(|| scene.gap_scale())
 }
 
-/// The largest speed at each wall, m/s, in the scene's order: seen by the probe on the wall's row;
-/// where there is none, the larger of the fastest contact and the fastest probe.
-pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory) -> Vec<f64> {
-    let fastest = largest(motion.velocities());
+/// The largest speed at each wall from the time `from` (s) on, m/s, in the scene's order: seen by
+/// the probe on the wall's row; where there is none, the larger of the fastest contact and the
+/// fastest probe.
+pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory, from: f64) -> Vec<f64> {
+    let first = motion.time().partition_point(|t| *t < from);
+    let largest = |column: &Vec<f64>| column.iter().skip(first).fold(0.0, |most: f64, v| most.max(v.abs()));
+    let fastest = motion.velocities().iter().map(largest).fold(0.0, f64::max);
     let speed = |(index, wall): (usize, &crate::scene::Wall)| {
         let probe = scene.probes.iter().position(|p| p.at == *wall.row()).and_then(|p| motion.velocities().get(p));
         match probe {
-            Some(column) => column.iter().fold(0.0, |most: f64, v| most.max(v.abs())),
+            Some(column) => largest(column),
             None => {
-                let here = motion.contacts().iter().filter(|c| c.wall == index);
+                let here = motion.contacts().iter().filter(|c| c.wall == index && c.start >= from);
                 here.fold(fastest, |most, c| most.max(c.approach_speed))
             }
         }

@@ -54,8 +54,9 @@ pub struct Args {
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     pub(super) scheme: Option<String>,
     /// Find scheme and step for this error, 1e-3 or 0.1%. Of a motion it is a share of the gap
-    /// (without one, of the largest displacement) and of each wall's impulse and contact
-    /// statistics; for a case reduced to modes, the number of modes is found too; exit code 1 if it
+    /// (without one, of the largest displacement) and, for the impulse, contacts, impact energy,
+    /// contact time and, at springs, peak force of each wall, of the largest of all walls; RMS and
+    /// largest forces at rigid walls are not judged; for a case reduced to modes, the number of modes is found too; exit code 1 if it
     /// is not kept to the end. Of means it is a share of the work rates, mean and RMS forces over
     /// realisations: the coarsest step whose part in their errors is within it is found, and as
     /// many seeds as its interval and theirs take; exit code 1 where no step or no number of seeds
