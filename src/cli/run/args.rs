@@ -56,11 +56,11 @@ pub struct Args {
     /// Find scheme and step for this error, 1e-3 or 0.1%. Of a motion it is a share of the gap
     /// (without one, of the largest displacement) and, for the impulse, contacts, impact energy,
     /// contact time and, at springs, peak force of each wall, of the largest of all walls; RMS and
-    /// largest forces at rigid walls are not judged; for a case reduced to modes, the number of modes is found too; exit code 1 if it
-    /// is not kept to the end. Of means it is a share of the work rates, mean and RMS forces over
-    /// realisations: the coarsest step whose part in their errors is within it is found, and as
-    /// many seeds as its interval and theirs take; exit code 1 where no step or no number of seeds
-    /// keeps it
+    /// largest forces at rigid walls are not judged; for a case reduced to modes, the number of
+    /// modes is found too; exit code 1 if it is not kept to the end. Of means it is a share of the
+    /// work rates, mean and RMS forces over realisations: the coarsest step whose part in their
+    /// errors is within it is found, and as many seeds as its interval and theirs take; exit code 1
+    /// where no step or no number of seeds keeps it
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     accuracy: Option<String>,
     /// What --accuracy is an error of [default: of means where a load or the start is random, and
