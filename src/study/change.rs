@@ -25,8 +25,8 @@ pub struct Change {
 
 /// Changes at one wall or round support, over the window of the statistics. Each is relative to the
 /// largest value at any wall of the scene, or to the value of a single impact at the largest speed
-/// v at this wall in the window if that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]);
-/// so a wall that is hardly touched does not dominate.
+/// v at this wall in the window if that is larger (with the mass m that the wall feels,
+/// [`Scene::wall_masses`]); so a wall that is hardly touched does not dominate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallChange {
