@@ -152,9 +152,9 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
     notes.extend(of_counters(&run.scheme, &run.counters));
     let wear = R::statistics(&run.statistics).map_or(&[][..], |statistics| &statistics.wear);
     notes.extend(driving_friction(scene, wear));
-    notes.extend(averaged_over_steps(scene, run, averaging));
     let touched = run.recorded().is_none_or(|trajectory| !trajectory.contacts().is_empty());
     notes.extend(setup(scene, &run.scheme, run.grid.step, touched));
+    notes.extend(averaged_over_steps(scene, run, averaging));
     notes
 }
 
@@ -169,7 +169,7 @@ fn averaged_over_steps<J: Judging, R: Recording>(
     let springs = matches!(run.scheme, Scheme::Penalty { .. });
     let mut walls = scene.walls.iter().zip(&statistics.walls).filter(|_| !springs);
     let struck = walls.any(|(wall, statistics)| wall.law.is_rigid() && statistics.contacts > 0);
-    (by > asked && struck).then(|| {
+    (by > (1.0 + ROUNDING) * asked && struck).then(|| {
         format!(
             "RMS and largest forces at rigid walls are means over the step, {by:e} s, and not over {asked:e} s \
              (--force-averaging): {} knows an impulse no better than its step, and both grow as the step falls; \
