@@ -491,3 +491,21 @@ fn where_the_numbers_of_a_rattling_tube_cannot_be_kept_is_known_from_its_first_s
     let whole = Target { time: TimeOptions { statistics_from: 0.0, ..case.time }, ..target };
     assert_eq!(foresee(&case.scene.clone().with_duration(0.1), &whole).unwrap(), None);
 }
+
+/// A fast impact before the window of the statistics is no measure of the light touches in it.
+#[test]
+fn impulses_in_the_window_are_judged_by_impacts_in_the_window() {
+    let scene = Scene::oscillator(1.0, 4.0, 400.0)
+        .with_wall(Wall::lower("stop", -5e-3).with_elasticity(4e4, 0.0))
+        .with_load(Load::harmonic(1.2395, 2.0, 0.0))
+        .with_initial(&[0.0], &[-0.6])
+        .with_duration(6.0);
+    let time = TimeOptions { statistics_from: 3.0, sample: Some(0.01), ..TimeOptions::with_step(1e-3) };
+    let [coarse, exact] =
+        [Scheme::Located, Scheme::Event].map(|scheme| run(&scene, &scheme, &Options::new(time)).expect("a run"));
+    let [a, b] = [&coarse, &exact].map(|run| run.statistics.walls[0].force.expect("a flat wall").impulse_n_s);
+    let change = Change::of_runs(&scene, &coarse, &exact, 6.0).walls[0].impulse;
+    // In the window the body meets the wall with less than 0.02 m/s, and the impulses sum up to
+    // more than that of such an impact of 1 kg.
+    assert!(b > 0.1 && (change / ((a - b).abs() / b) - 1.0).abs() < 1e-9, "{change} for {a} and {b}");
+}
