@@ -264,3 +264,8 @@ def test_a_case_takes_any_text() -> None:
     system = {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 1.0}}
     case = sg.case({"title": "\U0001d714 \u00fc \"quoted\"", "system": system, "time": {"end": 1.0, "step": 0.1}})
     assert case.title == "\U0001d714 \u00fc \"quoted\""
+
+
+def test_a_scene_is_made_with_its_output_times() -> None:
+    made = sg.oscillator(1.0, 0.0, 100.0, displacement=1.0, output_times=[0.25, 0.5])
+    assert made == sg.oscillator(1.0, 0.0, 100.0, displacement=1.0).replace(output_times=[0.25, 0.5])

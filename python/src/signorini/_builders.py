@@ -24,6 +24,7 @@ class SceneOptions(TypedDict, total=False):
     displacement: float | Sequence[float] | npt.NDArray[np.float64]
     velocity: float | Sequence[float] | npt.NDArray[np.float64]
     duration: float
+    output_times: Sequence[float] | npt.NDArray[np.float64]
 
 
 class ReducedOptions(SceneOptions, total=False):
