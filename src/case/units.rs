@@ -3,7 +3,7 @@
 
 use super::{Case, Model};
 use crate::error::amount;
-use crate::scene::{Beam, BeamSection, Face};
+use crate::scene::{Beam, BeamSection};
 
 /// Least and largest wear coefficient, 1/Pa, of the tables that go with code_aster.
 const COEFFICIENTS: [f64; 2] = [1e-17, 1e-12];
@@ -32,11 +32,7 @@ impl Case {
 
     /// The beams, of the system or of bodies.
     fn beams(&self) -> impl Iterator<Item = &Beam> {
-        let bodies = match &self.model {
-            Model::Bodies(bodies) => bodies.as_slice(),
-            _ => &[],
-        };
-        std::iter::once(&self.model).chain(bodies.iter().map(|body| &body.model)).filter_map(|model| match model {
+        self.model.systems().filter_map(|model| match model {
             Model::Beam(beam) => Some(beam),
             _ => None,
         })
@@ -66,17 +62,13 @@ impl Case {
     /// A gap that is wide beside the section of the thickest beam.
     fn unusual_gap(&self) -> Option<String> {
         let thick = self.beams().map(|beam| widest(beam.section)).reduce(f64::max)?;
-        let gap = |face: &Face| match *face {
-            Face::Flat { position, .. } => position.abs(),
-            Face::Round { gap, .. } => gap,
-        };
         let walls = self.unreduced().walls.iter();
-        let wide = walls.map(|wall| (gap(&wall.face), &wall.name)).find(|(gap, _)| *gap > MOST_GAP * thick)?;
+        let (gap, name) =
+            walls.map(|wall| (wall.position().abs(), &wall.name)).find(|(gap, _)| *gap > MOST_GAP * thick)?;
         Some(format!(
-            "the wall {:?} stands {} m from the beam's rest, {} times its section of {} m: mind the unit, m",
-            wide.1,
-            amount(wide.0, 3),
-            amount(wide.0 / thick, 2),
+            "the wall {name:?} stands {} m from the beam's rest, {} times its section of {} m: mind the unit, m",
+            amount(gap, 3),
+            amount(gap / thick, 2),
             amount(thick, 3)
         ))
     }

@@ -166,10 +166,12 @@ fn averaged_over_steps<J: Judging, R: Recording>(
     [asked, by]: [f64; 2],
 ) -> Option<String> {
     let statistics = R::statistics(&run.statistics)?;
-    let springs = matches!(run.scheme, Scheme::Penalty { .. });
-    let mut walls = scene.walls.iter().zip(&statistics.walls).filter(|_| !springs);
+    if by <= (1.0 + ROUNDING) * asked || matches!(run.scheme, Scheme::Penalty { .. }) {
+        return None;
+    }
+    let mut walls = scene.walls.iter().zip(&statistics.walls);
     let struck = walls.any(|(wall, statistics)| wall.law.is_rigid() && statistics.contacts > 0);
-    (by > (1.0 + ROUNDING) * asked && struck).then(|| {
+    struck.then(|| {
         format!(
             "RMS and largest forces at rigid walls are means over the step, {by:e} s, and not over {asked:e} s \
              (--force-averaging): {} knows an impulse no better than its step, and both grow as the step falls; \

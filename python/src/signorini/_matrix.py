@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._types import check_unmasked
+
 Entries = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.float64]]
 
 # Between an entry and its mirror, relative to the larger or to sqrt(|a_ii a_jj|), as of matrices in
@@ -16,8 +18,7 @@ _ASYMMETRY = 1e-8
 
 def lower(name: str, matrix: Any) -> tuple[int, Entries]:
     """Size and the entries of the lower triangle of a symmetric matrix, means of both triangles."""
-    if np.ma.is_masked(matrix):
-        raise ValueError(f"{name} matrix has masked entries; expected all of them")
+    check_unmasked(f"{name} matrix", matrix)
     if hasattr(matrix, "tocoo"):
         coo = matrix.tocoo()
         shape, rows, columns, values = coo.shape, coo.row, coo.col, coo.data

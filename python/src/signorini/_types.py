@@ -100,10 +100,15 @@ def known(name: str, given: Mapping[str, Any] | None, keys: Iterable[str]) -> di
     return dict(given or {})
 
 
-def real_numbers(name: str, values: Any) -> Array:
-    """``values`` as numbers, unless they are complex."""
+def check_unmasked(name: str, values: Any) -> None:
+    """Refuses an array some of whose entries are masked."""
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked entries; expected all of them")
+
+
+def real_numbers(name: str, values: Any) -> Array:
+    """``values`` as numbers, unless they are complex or masked."""
+    check_unmasked(name, values)
     found = np.asarray(values)
     if np.iscomplexobj(found):
         raise TypeError(f"{name} has complex numbers; expected real ones")

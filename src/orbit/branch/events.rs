@@ -71,11 +71,11 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
                 let [reaction, ..] = arc.pressing(Support { wall: event.wall, side }, 0.0);
                 add(Label::RestEnds, reaction / force);
             }
-            (Kind::Impact, BoundaryLaw::Rigid(restitution)) => {
+            (Kind::Impact, BoundaryLaw::Rigid(0.0)) => {
                 problem.fly(&mut arc, state, [start, 0.0], &[], None);
-                let away = -boundary.toward * arc.start_jet()[2];
-                add(Label::RestBegins, if restitution == 0.0 { away } else { NONE });
+                add(Label::RestBegins, -boundary.toward * arc.start_jet()[2]);
             }
+            (Kind::Impact, BoundaryLaw::Rigid(_)) => add(Label::RestBegins, NONE),
             _ => {}
         }
         if !matches!(event.kind, Kind::Rest) {

@@ -156,12 +156,21 @@ impl WearHistories {
     /// within the time in service; `None` where it does not.
     #[must_use]
     pub fn reaches(&self, support: usize, limit: f64, quantity: WearQuantity) -> Option<TimeOfLimit> {
+        self.mean_reaches((support, limit, quantity), &|| self.reaches_by_history(support, limit, quantity))
+    }
+
+    /// The same, with the times at which each history alone reaches it, where they are needed.
+    fn mean_reaches(
+        &self,
+        (support, limit, quantity): (usize, f64, WearQuantity),
+        histories: &dyn Fn() -> Vec<Option<f64>>,
+    ) -> Option<TimeOfLimit> {
         let course = self.course(support, quantity, Of::Mean)?;
         let time_s = course.reaches(limit)?;
         let half_width_95_s = if self.is_deepest_of_several(quantity) {
             course.half_width_of(time_s)
         } else if self.count() > 1 {
-            let each: Option<Vec<f64>> = self.reaches_by_history(support, limit, quantity).into_iter().collect();
+            let each: Option<Vec<f64>> = histories().into_iter().collect();
             each.and_then(|times| mean_of(&times).2)
         } else {
             self.course(support, quantity, Of::Largest)?.reaches(limit).map(|earlier| time_s - earlier)
@@ -200,9 +209,10 @@ impl WearHistories {
     /// the last rates.
     #[must_use]
     pub fn limit_reached(&self, support: usize, limit: f64, quantity: WearQuantity) -> LimitReached {
-        let mean = self.reaches(support, limit, quantity);
+        let histories = self.reaches_by_history(support, limit, quantity);
+        let mean = self.mean_reaches((support, limit, quantity), &|| histories.clone());
         let at_last_rate = if mean.is_none() { self.reaches_at_last_rate(support, limit, quantity) } else { None };
-        LimitReached { mean, at_last_rate, histories: self.reaches_by_history(support, limit, quantity) }
+        LimitReached { mean, at_last_rate, histories }
     }
 
     /// Adds points between those of two windows where a depth does not grow straight.

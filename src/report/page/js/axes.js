@@ -37,10 +37,11 @@ function logTicks(lo, hi, room) {
 /** A stretch longer than this share of an axis is not worth hiding the rest for. */
 const MOST_OF_ALL = 0.7;
 
-/** A stretch of an axis that several plots share. */
+/** A stretch of an axis, of a logarithmic one with `log`, that several plots share. */
 class View {
-  constructor(lo, hi) {
+  constructor(lo, hi, log = false) {
     this.full = [lo, hi];
+    this.log = log;
     [this.lo, this.hi] = [lo, hi];
     this.listeners = [];
   }

@@ -29,9 +29,10 @@ function edgesOf(values, log) {
 const POINT = 6;
 
 /**
- * A map of cells, or of points where rows stand alone, as in a random design. Options: x, y (labels), xs, ys (values of each row of the table), shows(i) whether
- * a row is among those drawn, toneOf(i) an RGB triple, tell(i) the text of a cell, pick(i), height,
- * beside(ctx, plot). Its `refill` draws the rows that are shown by then.
+ * A map of cells, or of points where rows stand alone, as in a random design. Options: x, y
+ * (labels), xs, ys (values of each row of the table), shows(i) whether a row is among those drawn,
+ * toneOf(i) an RGB triple, tell(i) the text of a cell, pick(i), height, beside(ctx, plot). Its
+ * `refill` draws the rows that are shown by then.
  */
 function cellMap(options) {
   const axes = [distinct(options.xs), distinct(options.ys)];

@@ -37,9 +37,10 @@ const FEW_ROWS = 20;
 /** The stretch of the axis that is shown first: where something happens, if that is a part of it. */
 function firstView(columns, axis, measures, over = null) {
   const ends = extent([...columns[axis], ...(over ? over.columns[axis] : [])]) || [0, 1];
+  const log = isGeometric(distinct(columns[axis]));
   const beside = (ends[1] / ends[0]) ** 0.03;
-  const view = isGeometric(distinct(columns[axis]))
-    ? new View(ends[0] / beside, ends[1] * beside)
+  const view = log
+    ? new View(ends[0] / beside, ends[1] * beside, log)
     : new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
   const few = columns[axis].length <= FEW_ROWS;
   view.part = !few && view.beginAbout(eventful(columns, axis, measures));
@@ -108,7 +109,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       height: 300,
       alt: `${y} over ${columnLabel(axis)}`,
       view,
-      log: [isGeometric(distinct(columns[axis])), false],
+      log: [view.log, false],
       marks: marks(unit),
       series: [...shared.map(paleCurve), ...bands, ...series],
     });

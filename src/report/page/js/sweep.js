@@ -187,7 +187,7 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
   };
   const plot = new Plot({
     x: columnLabel(axisColumn),
-    log: [isGeometric(distinct(axis)), false],
+    log: [view?.log, false],
     y: " ",
     height: 460,
     alt: "Instants of every row",
