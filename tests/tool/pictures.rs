@@ -251,3 +251,24 @@ fn a_moving_picture_is_made_of_tubes_alone() {
     drawn(&dir.path().join("oscillator"), &["run", "rigid-walls-sine", "--end", "0.2"]);
     assert!(!dir.path().join("oscillator").join("animation.svg").exists());
 }
+
+/// What README.md shows is what the tool draws. The motion is chaotic and its bits are those of the
+/// processor's vectors, so that the paths differ from machine to machine: the words are compared,
+/// with every number left out, and how many curves there are.
+#[test]
+fn the_pictures_of_the_readme_are_those_of_the_tool() {
+    let dir = tempfile::tempdir().unwrap();
+    drawn(dir.path(), &["run", "tube-round-supports"]);
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
+    let words = |svg: &str| -> Vec<String> {
+        let letters = |body: String| body.chars().filter(|c| !c.is_ascii_digit()).collect();
+        labels(svg).into_iter().map(|label| letters(label.body)).collect()
+    };
+    for (file, picture) in [("animation.svg", "tube.svg"), ("orbit.svg", "orbit.svg")] {
+        let (now, then) = (read(dir.path(), file), read(&kept, picture));
+        assert_eq!(words(&now), words(&then), "CONTRIBUTING.md says how docs/pictures/{picture} is made");
+        for element in ["<path", "<polyline", "<circle", "<animate"] {
+            assert_eq!(now.matches(element).count(), then.matches(element).count(), "{element} of {picture}");
+        }
+    }
+}
