@@ -237,8 +237,9 @@ impl Builder<'_> {
                 "a number above 0, in m, at most the beam's length",
             ));
         }
-        let outer = beam.and_then(|beam| beam.section.outer_diameter());
-        let tube = outer.map(|outer| 0.5 * outer);
+        let radius_of = |place| self.model.beam(place)?.section.outer_diameter().map(|outer| 0.5 * outer);
+        let tube = radius_of(place);
+        let other_tube = if let Place::Relative { to, .. } = place { radius_of(to) } else { None };
         match (support.span_of("width"), support.span_of("radius")) {
             (None, Some(at)) => {
                 let help = "expected width beside it, in m along the tube: both make the depth of a scar";
@@ -257,6 +258,7 @@ impl Builder<'_> {
         }
         Ok(WearData {
             scar: width.zip(radius.or(tube)),
+            other_tube,
             wall: self.wall_of(owner, support, radius)?,
             coefficient: coefficient?.or(material.and_then(|own| own.coefficient)),
             support_coefficient: support_coefficient?.or(material.and_then(|own| own.support_coefficient)),

@@ -118,8 +118,13 @@ impl Case {
         let coefficient = wear.coefficient.or(self.wear.coefficient);
         let support_coefficient = wear.support_coefficient.or(self.wear.support_coefficient);
         coefficient.or(support_coefficient)?;
-        let hole = self.scene.supports.get(index)?.hole(&self.scene.walls);
-        let bearing = hole.map_or(Bearing::Flat, |hole| Bearing::Hole { gap: hole.gap });
+        let support = self.scene.supports.get(index)?;
+        let bearing = match (support.hole(&self.scene.walls), wear.other_tube) {
+            (Some(hole), _) => Bearing::Hole { gap: hole.gap },
+            // Several flats are bars that the other tube carries.
+            (None, Some(radius)) if support.walls.len() == 1 => Bearing::Tube { radius },
+            (None, _) => Bearing::Flat,
+        };
         let scar = wear.scar.map(|(width, radius)| Scar { width, radius, bearing });
         Some(Archard { coefficient, support_coefficient, service, scar })
     }

@@ -174,6 +174,8 @@ pub enum SupportShape {
 pub struct WearData {
     /// Width of the support and radius of the tube that slides there, m.
     pub scar: Option<(f64, f64)>,
+    /// Radius of the tube on the other side, m, where the support stands between places on two.
+    pub other_tube: Option<f64>,
     /// Thickness of the tube's wall, m, where the support gives it: that of a beam is in its
     /// section.
     pub wall: Option<f64>,

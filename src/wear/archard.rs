@@ -1,6 +1,6 @@
 //! Archard's law at a support: the volumes worn off in service, and the depth of the scar.
 
-use super::depth::{all_round, flat_depth, moon_depth};
+use super::depth::{Bearing, all_round};
 use serde::{Deserialize, Serialize};
 
 /// How a tube and its support wear: V = k W T, with k the wear coefficient (Archard 1953,
@@ -43,18 +43,6 @@ pub struct Scar {
     pub bearing: Bearing,
 }
 
-/// What a tube bears against.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Bearing {
-    /// A flat.
-    Flat,
-    /// A round hole.
-    Hole {
-        /// Its radius less that of the tube, m.
-        gap: f64,
-    },
-}
-
 /// Wear of a support and its tube in service; `None` where no coefficient or no scar is given, and
 /// where the volume would be negative or NaN.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -80,16 +68,31 @@ impl Archard {
         };
         let volume_m3 = volume(self.coefficient);
         let scarred = volume_m3.zip(self.scar);
-        let one = |(volume, Scar { width, radius, bearing })| match bearing {
-            Bearing::Flat => flat_depth(volume, width, radius),
-            Bearing::Hole { gap } => moon_depth(volume, width, radius, gap),
-        };
         Worn {
             volume_m3,
-            depth_one_scar_m: scarred.and_then(one),
+            depth_one_scar_m: scarred.and_then(|(_, scar)| self.scar_depth(scar, work_rate * self.service)),
             depth_all_round_m: scarred.map(|(volume, scar)| all_round(volume, scar.width, scar.radius)),
             support_volume_m3: volume(self.support_coefficient),
         }
+    }
+
+    /// Depth of one scar on the tube by `work` (J), m; `None` where that would cut the tube in two,
+    /// and where the work is negative or NaN.
+    ///
+    /// The scar of the tube alone, but where it bears against another one: what both lose is the
+    /// lens in which their circles overlap, and at each point of it they wear in the ratio of their
+    /// coefficients.
+    pub(super) fn scar_depth(&self, Scar { width, radius, bearing }: Scar, work: f64) -> Option<f64> {
+        let (own, both) = (self.coefficient?, self.both_coefficients());
+        match bearing {
+            Bearing::Tube { .. } => bearing.depth(both * work, width, radius).map(|depth| own / both * depth),
+            Bearing::Flat | Bearing::Hole { .. } => bearing.depth(own * work, width, radius),
+        }
+    }
+
+    /// k of tube and support, 1/Pa.
+    pub(super) fn both_coefficients(&self) -> f64 {
+        self.coefficient.unwrap_or(0.0) + self.support_coefficient.unwrap_or(0.0)
     }
 }
 

@@ -11,12 +11,13 @@
 //!   lost. A circle that is moved further than it grew would lie within the old one on the other
 //!   side, where nothing is put on: |d₁| ≤ d₀.
 //! - *Flats*: each flat recedes by the depth of its scar, at which the segment that it cuts off the
-//!   tube has the volume k E of the work done at that flat.
+//!   tube has the volume k E of the work done at that flat. Where it stands for another tube, both
+//!   come closer by the depth at which the lens of both circles has that volume.
 //!
 //! In each case the support stays convex, so that contacts are found as before.
 
-use super::archard::{Archard, Bearing, Scar};
-use super::depth::{all_round, flat_area, flat_depth};
+use super::archard::{Archard, Scar};
+use super::depth::{Bearing, all_round};
 use serde::{Deserialize, Serialize};
 
 /// What its wear does to the gaps of a support.
@@ -131,7 +132,7 @@ impl Growth {
     pub fn opening(self, law: &Archard, work: &WearWork) -> Opening {
         let still = Opening { recession: vec![0.0; work.walls.len()], shift: [0.0; 2] };
         let Some(scar) = law.scar else { return still };
-        let Scar { width, radius, .. } = scar;
+        let Scar { width, radius, bearing } = scar;
         match self {
             Self::Kept => still,
             Self::Even => {
@@ -146,7 +147,7 @@ impl Growth {
             }
             Self::Flats => {
                 let k = law.both_coefficients();
-                let depth = |work: &f64| flat_depth(k * work, width, radius).unwrap_or(2.0 * radius);
+                let depth = |work: &f64| bearing.depth(k * work, width, radius).unwrap_or(2.0 * radius);
                 Opening { recession: work.walls.iter().map(depth).collect(), ..still }
             }
         }
@@ -156,7 +157,7 @@ impl Growth {
     /// `share` of its gap, after `work` (J) at the rate `rate` (W); infinite where none does.
     pub(crate) fn time_to_open(self, law: &Archard, gaps: &[f64], work: &WearWork, rate: &WearWork, share: f64) -> f64 {
         let Some(scar) = law.scar else { return f64::INFINITY };
-        let Scar { width, radius, .. } = scar;
+        let Scar { width, radius, bearing } = scar;
         let open = self.opening(law, work).recession;
         let time = |((gap, receded), (work, rate)): ((&f64, &f64), (f64, f64))| {
             let further = share * (gap + receded);
@@ -168,7 +169,7 @@ impl Growth {
                 }
                 // A flat without a gap has none to compare with.
                 Self::Flats if rate > 0.0 && further > 0.0 => {
-                    let until = flat_area(receded + further, radius) * width / law.both_coefficients();
+                    let until = bearing.area(receded + further, radius) * width / law.both_coefficients();
                     (until - work).max(0.0) / rate
                 }
                 Self::Flats => f64::INFINITY,
@@ -184,11 +185,6 @@ impl Growth {
 }
 
 impl Archard {
-    /// k of tube and support, 1/Pa.
-    fn both_coefficients(&self) -> f64 {
-        self.coefficient.unwrap_or(0.0) + self.support_coefficient.unwrap_or(0.0)
-    }
-
     /// Depth of tube and support together, evenly all round, by the work of wear, m/J.
     fn even_depth_by_work(&self, scar: Scar) -> f64 {
         all_round(self.both_coefficients(), scar.width, scar.radius)
@@ -199,15 +195,16 @@ impl Archard {
     /// tube or a scar. NaN where it would cut the tube in two.
     #[must_use]
     pub fn depths(&self, growth: Growth, work: &WearWork) -> Vec<f64> {
-        let Some((coefficient, Scar { width, radius, bearing })) = self.coefficient.zip(self.scar) else {
-            return Vec::new();
-        };
+        let Some((coefficient, scar)) = self.coefficient.zip(self.scar) else { return Vec::new() };
+        let Scar { width, radius, bearing } = scar;
         // A sector narrower than the scar that all of the wear makes is no deeper than that.
-        let one_scar = Self { service: 1.0, ..*self }.worn(work.total).depth_one_scar_m.unwrap_or(f64::NAN);
-        let flat = |work: &f64| flat_depth(coefficient * work, width, radius).unwrap_or(f64::NAN);
+        let flat = |work: &f64| self.scar_depth(scar, *work).unwrap_or(f64::NAN);
+        let one_scar = flat(&work.total);
         let sector = |own: &f64| all_round(coefficient * own * work.sectors.len() as f64, width, radius);
         let own: Vec<f64> = match (growth, bearing) {
-            (Growth::Flats | Growth::Kept, Bearing::Flat) => work.walls.iter().map(flat).collect(),
+            (Growth::Flats | Growth::Kept, Bearing::Flat | Bearing::Tube { .. }) => {
+                work.walls.iter().map(flat).collect()
+            }
             _ => work.sectors.iter().map(sector).collect(),
         };
         // What is worn off twice the radius deep is cut off.
@@ -296,7 +293,7 @@ mod tests {
         assert!((open.recession[0] / 0.350_324_405_082_514_47e-3 - 1.0).abs() < 1e-12);
         assert_eq!((open.recession[1], open.shift), (0.0, [0.0; 2]));
         // Of the tube comes 0.4 of it.
-        let own = flat_depth(0.4 * 3e-8, 0.025, 0.009_525).unwrap();
+        let own = Bearing::Flat.depth(0.4 * 3e-8, 0.025, 0.009_525).unwrap();
         assert_eq!(law.deepest(Growth::Flats, &work), own);
         // From there at 1 W until half of the gap and recession have gone again.
         let rate = WearWork { total: 1.0, sectors: vec![1.0], walls: vec![1.0, 0.0] };
@@ -305,6 +302,28 @@ mod tests {
         assert!((then / (1.5 * open.recession[0] + 0.5e-4) - 1.0).abs() < 1e-12, "{then}");
         assert_eq!(Growth::Kept.opening(&law, &work).recession, [0.0, 0.0]);
         assert_eq!(Growth::Kept.time_to_open(&law, &[1e-4], &work, &rate, 0.5), f64::INFINITY);
+    }
+
+    #[test]
+    fn two_tubes_come_closer_by_the_depths_of_both() {
+        let work = WearWork { total: 3e4, sectors: vec![3e4], walls: vec![3e4] };
+        let [left, right] = [(4e-13, 6e-13), (6e-13, 4e-13)].map(|(own, other)| Archard {
+            coefficient: Some(own),
+            support_coefficient: Some(other),
+            ..law(Bearing::Tube { radius: 0.009_525 })
+        });
+        let closer = Growth::Flats.opening(&left, &work).recession[0];
+        let depths = [left, right].map(|law| law.deepest(Growth::Flats, &work));
+        assert!((depths[0] / depths[1] * 1.5 - 1.0).abs() < 1e-12, "{depths:?}");
+        assert!(((depths[0] + depths[1]) / closer - 1.0).abs() < 1e-12, "{depths:?} {closer:e}");
+        // Of equal tubes that wear alike each loses the segment that a plane cuts off.
+        let alike = Archard { coefficient: Some(5e-13), support_coefficient: Some(5e-13), ..left };
+        let segment = Bearing::Flat.depth(1.5e-8, 0.025, 0.009_525).unwrap();
+        assert!((alike.deepest(Growth::Kept, &work) / segment - 1.0).abs() < 1e-12);
+        let rate = WearWork { total: 1.0, sectors: vec![1.0], walls: vec![1.0] };
+        let time = Growth::Flats.time_to_open(&left, &[1e-4], &work, &rate, 0.5);
+        let then = Growth::Flats.opening(&left, &work.advanced(&rate, &rate, time)).recession[0];
+        assert!((then / (1.5 * closer + 0.5e-4) - 1.0).abs() < 1e-12, "{then}");
     }
 
     #[test]
@@ -329,7 +348,7 @@ mod tests {
         assert!((depths[5] / depths[0] - 3.0).abs() < 1e-14);
         let work = WearWork { total: 3e4, sectors: vec![2.5e3; 12], walls: vec![2e4, 1e4] };
         let flat = law(Bearing::Flat).depths(Growth::Kept, &work);
-        let wanted = [2e4, 1e4].map(|work| flat_depth(4e-13 * work, 0.025, 0.009_525).unwrap());
+        let wanted = [2e4, 1e4].map(|work| Bearing::Flat.depth(4e-13 * work, 0.025, 0.009_525).unwrap());
         assert_eq!(flat, wanted);
         // More than the tube at one flat; and nothing of a tube without a coefficient.
         let through = WearWork { walls: vec![1e12, 0.0], total: 1e12, ..work.clone() };

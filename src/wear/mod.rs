@@ -26,8 +26,9 @@ mod work;
 
 #[cfg(feature = "case")]
 pub(crate) use archard::SCAR;
-pub use archard::{Archard, Bearing, Scar, Worn};
+pub use archard::{Archard, Scar, Worn};
 pub(crate) use contacts::SlidingContacts;
+pub use depth::Bearing;
 pub use growth::{Growth, Opening, WearWork};
 pub(crate) use piece::{ImpulseDuration, SlidingPiece};
 pub(crate) use sectors::sectors_over;

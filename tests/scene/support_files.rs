@@ -89,6 +89,15 @@ fn a_hole_alone_gets_probes_and_a_beam_its_radius() {
     assert_eq!(tube.archard(0).unwrap().scar.map(|scar| scar.radius), Some(0.01));
 }
 
+/// A single flat between two tubes is the other tube, in place of which several are bars.
+#[test]
+fn a_flat_between_two_tubes_is_the_other_tube() {
+    let text = include_str!("../../cases/two-tubes.toml");
+    let bearing = |text: &str| parsed(text).archard(0).unwrap().scar.unwrap().bearing;
+    assert_eq!(bearing(text), Bearing::Tube { radius: 0.5 * 19.05e-3 });
+    assert_eq!(bearing(&text.replace("directions = [0.0]", "directions = [0.0, 180.0]")), Bearing::Flat);
+}
+
 #[test]
 fn a_summary_holds_the_supports_of_its_case() {
     // Read again from its JSON: the same case, also after a change of all restitutions.
