@@ -73,6 +73,21 @@ impl WearWork {
         self.with(self, other, |_, from, to| from + share * (to - from))
     }
 
+    /// The work, and its rate, at the share `share` of a step of `step` seconds that makes the work
+    /// `after` of it, where the rate grows straight from `rate` on.
+    #[must_use]
+    pub(crate) fn within(&self, rate: &Self, after: &Self, step: f64, share: f64) -> (Self, Self) {
+        let work = self.with(rate, after, |work, rate, after| {
+            let even = step * rate;
+            work + share * (even + share * (after - work - even))
+        });
+        let rates = self.with(rate, after, |work, rate, after| {
+            let grown = if step > 0.0 { (after - work) / step - rate } else { 0.0 };
+            rate + 2.0 * share * grown
+        });
+        (work, rates)
+    }
+
     /// What `of` makes of the work and two rates, of all and of each part.
     fn with(&self, first: &Self, second: &Self, of: impl Fn(f64, f64, f64) -> f64) -> Self {
         let all = |work: &[f64], first: &[f64], second: &[f64]| {

@@ -15,14 +15,34 @@ pub(crate) struct Accrual {
 }
 
 impl Accrual {
+    /// The work, and its rates, at the share `share` of a step of `step` seconds that makes the
+    /// work `after` of it, where rates grow straight from `rates` on.
+    pub fn within(&self, rates: &Self, after: &Self, step: f64, share: f64) -> (Self, Self) {
+        let each = |work: &Works, rates: &Works, after: &Works| -> (Works, Works) {
+            let history = |((work, rates), after): ((&Vec<WearWork>, &Vec<WearWork>), &Vec<WearWork>)| {
+                let all = work.iter().zip(rates).zip(after);
+                all.map(|((work, rate), after)| work.within(rate, after, step, share)).unzip()
+            };
+            work.iter().zip(rates).zip(after).map(history).unzip()
+        };
+        let (found, rates_found) = each(&self.found, &rates.found, &after.found);
+        let (largest, rates_largest) = each(&self.largest, &rates.largest, &after.largest);
+        (Self { found, largest }, Self { found: rates_found, largest: rates_largest })
+    }
+
     /// The straight way from here to `other`, at the share `share` of it.
     pub fn towards(&self, other: &Self, share: f64) -> Self {
-        let each = |from: &Works, to: &Works| {
-            let history = |(from, to): (&Vec<WearWork>, &Vec<WearWork>)| {
-                from.iter().zip(to).map(|(from, to)| from.towards(to, share)).collect()
-            };
-            from.iter().zip(to).map(history).collect()
-        };
-        Self { found: each(&self.found, &other.found), largest: each(&self.largest, &other.largest) }
+        Self {
+            found: towards(&self.found, &other.found, share),
+            largest: towards(&self.largest, &other.largest, share),
+        }
     }
+}
+
+/// The straight way from the one to the other, at the share `share` of it.
+pub(super) fn towards(from: &Works, to: &Works, share: f64) -> Works {
+    let history = |(from, to): (&Vec<WearWork>, &Vec<WearWork>)| {
+        from.iter().zip(to).map(|(from, to)| from.towards(to, share)).collect()
+    };
+    from.iter().zip(to).map(history).collect()
 }

@@ -1,8 +1,9 @@
 //! How deep supports wear between the windows and after the last one, and when a limit is reached.
 //!
-//! Between two windows the work of wear grows straight, and depths follow from the work: that of a
-//! scar on a flat grows about like the work to the power of 2/3, so that no straight line through
-//! the depths at two windows tells when a limit is reached in between or later.
+//! In a step the rate of the work grows straight from that of its first window on, as Heun's method
+//! has it, so that the work is a parabola; depths follow from the work. That of a scar on a flat
+//! grows about like the work to the power of 2/3: no straight line through the depths at two
+//! windows tells when a limit is reached in between or later.
 
 use super::super::realisations::{Deepest, mean_of};
 use super::accrual::Accrual;
@@ -67,8 +68,8 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// The work at `time` (s), J, and the rates (W) at which it grows: straight between the
-    /// windows, and at the last rates after them.
+    /// The work at `time` (s), J, and the rates (W) at which it grows: straight ones between the
+    /// windows, and the last ones after them.
     fn accrued(&self, time: f64) -> Vec<(WearWork, f64)> {
         let after = self.points.partition_point(|point| point.time_s < time);
         let before = after.checked_sub(1).and_then(|before| self.points.get(before)).or(self.points.first());
@@ -78,13 +79,13 @@ impl<'a> Course<'a> {
             let seconds = time - before.time_s;
             return own.map(|(work, rate)| (work.advanced(rate, rate, seconds), rate.total)).collect();
         };
-        let whole = next.time_s - before.time_s;
-        let share = if whole > 0.0 { (time - before.time_s) / whole } else { 0.0 };
-        let next = self.parts(&next.work).into_iter().zip(self.parts(&next.rates));
-        let towards = |((work, rate), (next, next_rate)): ((&WearWork, &WearWork), (&WearWork, &WearWork))| {
-            (work.towards(next, share), rate.total + share * (next_rate.total - rate.total))
+        let step = next.time_s - before.time_s;
+        let share = if step > 0.0 { (time - before.time_s) / step } else { 0.0 };
+        let within = |((work, rate), next): ((&WearWork, &WearWork), &WearWork)| {
+            let (work, rate) = work.within(rate, next, step, share);
+            (work, rate.total)
         };
-        own.zip(next).map(towards).collect()
+        own.zip(self.parts(&next.work)).map(within).collect()
     }
 
     /// The quantity at `time` (s), and the half width of its 95 % interval over the histories;

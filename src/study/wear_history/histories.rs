@@ -55,11 +55,11 @@ impl WearPoint {
         }
     }
 
-    /// The point at the share `share` of the way to `other`, over which work and rates change
-    /// evenly.
+    /// The point at the share `share` of the step to `other`, over which rates grow straight.
     pub(super) fn towards(&self, other: &Self, share: f64, supports: &[WearingSupport]) -> Self {
-        let time = self.time_s + share * (other.time_s - self.time_s);
-        Self::new(supports, time, self.work.towards(&other.work, share), self.rates.towards(&other.rates, share))
+        let step = other.time_s - self.time_s;
+        let (work, rates) = self.work.within(&self.rates, &other.work, step, share);
+        Self::new(supports, self.time_s + share * step, work, rates)
     }
 
     /// The depths of all parts of a support, by number, in each history, m.

@@ -8,7 +8,7 @@
 //!
 //! with the coefficients k_t of the tube and k_s of the support, the radius R of the tube and the
 //! width w of the support. The work rate W comes from a run with the gap of that time, a *window*:
-//! vibration takes seconds, wear takes years, and W is taken as constant in between. W depends on
+//! vibration takes seconds, wear takes years, and between two windows W grows straight. W depends on
 //! the gaps of all supports, so that the equations of all of them are solved together, for the work
 //! of each support by sectors and walls, by Heun's method (order 2): windows at the gaps of the
 //! start and at those of a step of Euler's method, of which the mean counts. A step makes no gap
@@ -37,7 +37,7 @@ mod support;
 mod window;
 
 pub(crate) use accrual::Accrual;
-use accrual::Works;
+use accrual::{Works, towards};
 use course::reached_from;
 use histories::depths;
 pub use histories::{LimitReached, TimeOfLimit, WearHistories, WearPoint, WornThrough, mean};
@@ -141,7 +141,9 @@ impl WearPlan<'_> {
                 let corrected = advanced(&work, &rates.found, &then.found, step);
                 let widest = advanced(&work, &rates.largest, &then.largest, step);
                 if step <= shortest || self.agree(&ahead, &corrected, &widest) {
-                    step = self.intact(&work, (&rates.found, &then.found), step);
+                    let whole = self.intact(&work, (&rates.found, &then.found), step);
+                    let then = rates.towards(&then, whole / step);
+                    step = whole;
                     let after = advanced(&work, &rates.found, &then.found, step);
                     largest = advanced(&largest, &rates.largest, &then.largest, step);
                     self.add_step_error(&mut largest, [&work, &after], (&rates.found, &then.found), step);
@@ -169,9 +171,13 @@ impl WearPlan<'_> {
         })
     }
 
-    /// How much of a step (s) with the mean of two rates passes until the tube is worn through, s.
+    /// How much of a step (s) passes until the tube is worn through, s, while the rates grow
+    /// straight from the first to the second.
     fn intact(&self, work: &Works, (first, second): (&Works, &Works), step: f64) -> f64 {
-        let is_worn_through = |part: f64| self.worn_through(0.0, &advanced(work, first, second, part)).is_some();
+        let is_worn_through = |part: f64| {
+            let then = towards(first, second, part / step);
+            self.worn_through(0.0, &advanced(work, first, &then, part)).is_some()
+        };
         if !is_worn_through(step) {
             return step;
         }
