@@ -89,7 +89,9 @@ pub fn first_run(
 
 /// What limits the use of `study`.
 pub fn cautions(study: &RealisationStudy, case: &sg::case::Case) -> Vec<String> {
-    study.realisations.cautioned().sentences().chain(case.instability()).collect()
+    let found = &study.realisations;
+    let groups = found.groups_in_words().into_iter().chain(study.wider_in_words());
+    groups.chain(found.cautioned().sentences()).chain(case.instability()).collect()
 }
 
 /// The study of `count` realisations of `case` from its first `run`, of which so many are

@@ -247,6 +247,14 @@ def test_an_accuracy_of_means_has_the_step_that_was_found_or_warns_and_is_refuse
         sg.realisations(free, accuracy=0.2)
 
 
+def test_two_attractors_are_warned_of() -> None:
+    """By its start the motion goes to one of two orbits, with mean forces of 1.645 and 1.76 N."""
+    given = {"initial.scatter.velocity": 0.2, "wall.*.restitution": 0.8, "load.1.harmonic.frequency": 5.3}
+    case = sg.load("rigid-walls-sine", set={**given, "time.end": 100.0, "time.statistics_from": 80.0})
+    with pytest.warns(sg.ResultWarning, match="fall into two groups at wall .* two attractors, unless it is chance"):
+        sg.realisations(case, seeds=16, verdict=False)
+
+
 def test_a_chaotic_motion_has_means_and_an_accuracy_says_what_it_is_one_of() -> None:
     window = {"time.end": 30.0, "time.statistics_from": 10.0}
     chaotic = sg.load("rigid-walls-sine", set=window)

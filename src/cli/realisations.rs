@@ -12,7 +12,7 @@ use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::realisations::{
     Batch, KnownRealisations, Purpose, RandomScenes, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
-    Refined, checked, widest,
+    Refined, checked,
 };
 
 /// The share that `text` of `argument` says: `5%` or `0.05`.
@@ -79,23 +79,11 @@ pub fn study(
     ui: &Ui,
 ) -> Result<RealisationStudy> {
     let StudyRequest { count, checked, mut known } = asked;
-    let share = if let RealisationCount::Within { share, .. } = count { Some(share) } else { None };
     let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, checked };
     let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| batch_with_bar(case, method, missing, ui));
     let study = plan.follow(&mut make, &mut |pilots| ui.message(&pilots.to_string()))?;
-    if let Some((asked, widest)) = share.zip(widest(&study.realisations.members))
-        && study.shortfall.is_none()
-        && widest.pilot_share > asked
-    {
-        ui.message(&format!(
-            "the interval of the {} of {} {:?} is ± {:.1} % of it, wider than the ± {:.1} % asked for: the pilots, \
-             by which the number of realisations was chosen, scatter less than all of them, as in one study of twenty",
-            widest.measure.words(),
-            widest.place.kind.word(),
-            widest.place.name,
-            100.0 * widest.pilot_share,
-            100.0 * asked
-        ));
+    if let Some(words) = study.wider_in_words() {
+        ui.message(&words);
     }
     // Of its first run the command itself has told.
     for (refined, member) in study.refuted().filter(|(refined, member)| refined.is_some() || member.number > 1) {

@@ -8,6 +8,7 @@ use super::symmetry::mirror;
 use crate::error::{Error, Result, Subject};
 use crate::flow::{Arc, Start, Support, Touch};
 use crate::scene::{Forcing, Oscillator, Scene, System, WallSpring, forcing_period};
+use crate::scheme::check_exact;
 
 /// A scene of one degree of freedom whose loads repeat themselves, in which periodic orbits are
 /// looked for.
@@ -49,6 +50,7 @@ impl Problem {
     /// common period.
     pub fn new(scene: Scene) -> Result<Self> {
         scene.validate()?;
+        check_exact(&scene, "an orbit")?;
         let System::Oscillator(body) = scene.system else {
             return Err(Error::invalid(
                 "system",

@@ -11,7 +11,7 @@ use super::signature::MOST_PERIODS;
 use super::strobe::{Scales, is_stable, multipliers, newton_step, state, vector};
 use crate::error::{Error, Result};
 use crate::scene::{Scene, State, forcing_period};
-use crate::scheme::{Scheme, Stepper};
+use crate::scheme::{Scheme, Stepper, check_exact};
 use crate::variation::Product;
 use nalgebra::DVector;
 
@@ -121,6 +121,7 @@ pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot>
 /// [`Error::Invalid`] for a scene of which they cannot.
 pub(super) fn posed(scene: &Scene) -> Result<f64> {
     scene.validate()?;
+    check_exact(scene, "an orbit")?;
     check_dense(scene, "shooting")?;
     // Such a scene is refused before any run.
     Product::new(scene)?;

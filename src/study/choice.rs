@@ -21,11 +21,12 @@ pub struct Choice {
 ///
 /// At rigid flat walls that is located, whose steps are divided at the impacts: over the built-in
 /// cases with such walls its error at the case's step was below moreau-jean's wherever the motion
-/// is predictable, on `rigid-walls-sine` 3e-5 of the gap against 1e-1 at h = 1e-4
-/// (`signorini compare CASE --schemes moreau-jean,located`). In round holes and with friction an
-/// impact costs it several steps, and a random motion gains nothing from its order: there, and
-/// where no wall is rigid, so that both make the same steps, it is moreau-jean with θ = ½, but for
-/// friction at elastic round supports, which that does not step.
+/// is predictable, on `rigid-walls-sine` 3e-5 of the gap against 1e-1 at h = 1e-4 (`signorini
+/// compare CASE --schemes moreau-jean,located`). Likewise where no wall is rigid and one has a
+/// dashpot, whose force jumps where a contact begins: on `tabulated-pulse` 7e-7 against
+/// 2.5e-4. In round holes and with friction an impact costs it several steps, and a random motion
+/// gains nothing from its order: there, and at springs alone, where both make the same steps, it is
+/// moreau-jean with θ = ½, but for friction at elastic round supports, which that does not step.
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let moreau_jean = Scheme::MoreauJean { theta: 0.5 };
@@ -33,6 +34,10 @@ pub fn choose(scene: &Scene) -> Choice {
     let (scheme, reason) = if rubs && scene.holes().any(|hole| !hole.law.is_rigid()) {
         let reason = "the one scheme for friction at an elastic round support, whose force and normal it takes in the \
                       middle of each part of a step";
+        (Scheme::Located, reason)
+    } else if scene.nonlinear_wall().is_none() && has_dashpots_alone(scene) {
+        let reason = "elastic walls only, and the force of a dashpot jumps where a contact begins: steps are divided \
+                      there, and are of order 2, where whole steps err by the order 1";
         (Scheme::Located, reason)
     } else if scene.holes().next().is_some() {
         let reason = "it turns with the normal of a round support: what slides there keeps its speed, an impact \
@@ -52,7 +57,7 @@ pub fn choose(scene: &Scene) -> Choice {
     } else if scene.walls.is_empty() {
         (moreau_jean, "no walls: the θ-method with θ = ½ is the trapezoidal rule, and no step needs a QP")
     } else if scene.walls.iter().all(|w| !w.law.is_rigid()) {
-        let reason = "elastic walls only: θ = ½ conserves energy between and within contacts to the order of the step";
+        let reason = "springs for walls: θ = ½ conserves energy between and within contacts to the order of the step";
         (moreau_jean, reason)
     } else {
         let reason = "the constrained QP that honours every wall's restitution at the instant of each impact: of \
@@ -60,6 +65,11 @@ pub fn choose(scene: &Scene) -> Choice {
         (Scheme::Located, reason)
     };
     Choice { method: Method::new(scheme), reason: reason.into() }
+}
+
+/// True where no wall is rigid, and one has a dashpot.
+fn has_dashpots_alone(scene: &Scene) -> bool {
+    !scene.walls.iter().any(|wall| wall.law.is_rigid()) && scene.walls.iter().any(|wall| wall.law.jumps())
 }
 
 /// The method for an error named beforehand, given the outcome of the exact scheme on `scene`: the

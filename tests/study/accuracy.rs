@@ -1,6 +1,7 @@
 //! The requested error is met, and the step found for it is close to the best one.
 use signorini::study::accuracy::{Against, JudgedBy, Target, foresee, reach};
 use signorini::study::change::Change;
+use signorini::study::choice::choose;
 use signorini::study::verdict::Verdict;
 use signorini::{
     Error, Integrator, Load, Method, Options, PenaltyLaw, Run, Scene, Scheme, Table, TimeOptions, Wall, run,
@@ -236,6 +237,30 @@ fn a_step_found_by_halving_alone_keeps_the_error_too() {
     assert!(kept >= 60, "{kept} of {}", 2 * scenes().len());
     sufficient.sort_by(f64::total_cmp);
     assert!(sufficient[sufficient.len() / 2] <= 4.0, "the sufficient step is typically within 4 of the best");
+}
+
+/// A dashpot pushes from the step on in which a contact begins, so that the error of moreau-jean is
+/// of order 1, more or less by where its steps meet the wall: halving the step changes nothing where
+/// it leaves the first instant within the wall. By such changes 3 of 40 of these starts passed with
+/// errors of up to 1.6 times the tolerance. located is the default there, and keeps it.
+#[test]
+fn halving_is_refused_at_walls_with_a_dashpot_where_it_does_not_show_the_error() {
+    for start in [0, 1, 15, 27] {
+        let scene = Scene::oscillator(1.0, 0.0, 1000.0)
+            .with_wall(spring(upper(1e-3, 0.0), 2e5, 50.0))
+            .with_initial(&[0.0], &[0.31 + 0.0213 * f64::from(start)])
+            .with_duration(0.2);
+        let error = reach(&scene, &target(MOREAU, Against::Refinements, 6e-3), &mut |_| {}).unwrap_err();
+        assert!(error.is_request() && error.to_string().contains("expected located or no dashpot"), "{error}");
+        let chosen = choose(&scene).method.scheme;
+        assert_eq!(chosen, Scheme::Located);
+        let tries = [target(chosen, Against::Refinements, 6e-3), target(MOREAU, Against::Exact, 6e-3)];
+        for outcome in tries.map(|target| reach(&scene, &target, &mut |_| {}).unwrap()) {
+            assert!(outcome.shortfall.is_none(), "{start}");
+            let error = true_error(&scene, &outcome.run).0;
+            assert!(error <= 6e-3, "start {start}: {error:e}");
+        }
+    }
 }
 
 #[test]

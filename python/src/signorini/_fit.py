@@ -22,6 +22,14 @@ _KINDS = ("displacement", *_OF_CONTACTS)
 _MOST_GROWTH = 1e2
 """A small change may grow by this much: beyond, a record tells of the start more than of the keys."""
 
+_STAGES = (0.125, 0.25, 0.5)
+"""Shares of a record that are fitted one after another before the whole: a sum of squares over many
+impacts has minima beside the one sought, where other impacts occur, that over few has not."""
+
+_MOST_ALIKE = 4.0
+"""Neighbouring residuals of noise correlate by chance, times the root of their number, by more than
+this in one of 3e4 fits."""
+
 _MOST_SCATTER = 10.0
 """Beyond this size, in units of their standard errors, residuals are no errors of the data."""
 
@@ -89,16 +97,23 @@ class _Column:
     """Values of one kind, with their standard errors, and how they and their times are read from
     derivatives."""
 
+    name: str
     values: Array
     errors: Array
     read: Callable[[Derivative], tuple[Array, npt.NDArray[np.void]]]
     times: Callable[[Derivative], Array]
 
+    def first(self, count: int) -> _Column:
+        """The first values of a record."""
+        return _Column(self.name, self.values[:count], self.errors[:count], self.read, self.times)
+
 
 def _numbers(name: str, values: Any) -> Array:
     column = np.atleast_1d(real_numbers(name, values))
-    if column.ndim != 1 or not np.isfinite(column).all():
+    if column.ndim != 1:
         raise ValueError(f"{name} has the shape {column.shape}; expected a column of finite numbers")
+    for row in np.flatnonzero(~np.isfinite(column))[:1]:
+        raise ValueError(f"{name}[{row}] is {column[row]}; expected finite numbers: leave out what was not measured")
     return column
 
 
@@ -195,7 +210,7 @@ def _contact_columns(
         at = rows(by)
         return np.empty(0) if at is None else by.contacts["start"][at]
 
-    return [_Column(columns[name], errors[name], reader(name), times) for name in names]
+    return [_Column(name, columns[name], errors[name], reader(name), times) for name in names]
 
 
 def _check_signs(impulses: Array, least: Array, walls: Sequence[str], sides: Mapping[str, str]) -> None:
@@ -222,11 +237,13 @@ def fit(
     least squares, with their intervals.
 
     SciPy's ``least_squares`` does the search; residuals and their derivatives are exact
-    (`derivative`). The intervals are those of the linearised model: by Student's t from the scatter
-    of the residuals, whatever the size of the standard errors given. A key has none where it does
-    not change the data, or where other keys together change them in the same way (mass, damping,
-    stiffness and load leave all instants as they are when they grow by one factor): a warning names
-    these keys.
+    (`derivative`). A record is fitted in stages, its first eighth, quarter, half and the whole, each
+    from the values of the one before: beside the values sought there are others with other impacts,
+    at which the residuals of the whole are smallest around. The intervals are those of the
+    linearised model: by Student's t from the scatter of the residuals, whatever the size of the
+    standard errors given. A key has none where it does not change the data, or where other keys
+    together change them in the same way (mass, damping, stiffness and load leave all instants as
+    they are when they grow by one factor): a warning names these keys.
 
     Parameters
     ----------
@@ -272,8 +289,9 @@ def fit(
     ResultWarning
         For keys that the data do not tell, and where the residuals are above 10 standard errors.
         For keys that end at a bound, or where the scene takes no values beyond, as at a damping of
-        0: intervals of a linearised model are none of the confidence asked for there. And for an
-        interval that reaches beyond the bounds of its key.
+        0: intervals of a linearised model are none of the confidence asked for there. For an
+        interval that reaches beyond the bounds of its key, or the values that the scene takes. And
+        where neighbouring residuals correlate more than noise does.
 
     Examples
     --------
@@ -319,18 +337,32 @@ def fit(
         raise ValueError(f"no residuals in the motion from which the search starts: {model.reason}")
     low = [bounds.get(name, (-np.inf, np.inf))[0] for name in names]
     high = [bounds.get(name, (-np.inf, np.inf))[1] for name in names]
+    size = np.where(x0 == 0.0, 1.0, np.abs(x0))
 
-    def residuals_at(x: Array) -> Array:
-        return model.at(x)[0]
+    def search(model: _Model, x: Array, tolerance: float) -> Any:
+        def residuals_at(x: Array) -> Array:
+            return model.at(x)[0]
 
-    def jacobian_at(x: Array) -> Array:
-        return model.at(x)[1]
+        def jacobian_at(x: Array) -> Array:
+            return model.at(x)[1]
 
-    # No bound of the gradient: it has the unit of the residuals.
-    made = least_squares(
-        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=np.where(x0 == 0.0, 1.0, np.abs(x0)),
-        xtol=1e-12, ftol=1e-12, gtol=None,
-    )  # fmt: skip
+        # No bound of the gradient: it has the unit of the residuals.
+        return least_squares(
+            residuals_at, x, jac=jacobian_at, bounds=(low, high), x_scale=size,
+            xtol=tolerance, ftol=tolerance, gtol=None,
+        )  # fmt: skip
+
+    x = x0
+    for share in _STAGES if len(times) else ():
+        rows = int(share * len(times))
+        stage = _Model(scene_of, names, [columns[0].first(rows)], times[:rows], probe)
+        residuals, jacobian = stage.at(x)
+        if rows > 2 * len(names) and np.isfinite(residuals).all():
+            if _told(_scale(x0, x, np.subtract(high, low)), jacobian, stage.size()).rank == len(names):
+                staged = search(stage, x, 1e-6)
+                x = staged.x if staged.success and np.isfinite(model.at(staged.x)[0]).all() else x
+        model.runs += stage.runs
+    made = search(model, x, 1e-12)
     if not made.success:
         raise RunError(f"the search did not converge: {made.message}")
     residuals, jacobian = model.at(made.x)
@@ -343,16 +375,49 @@ def fit(
     freedom = count - told.rank
     quantile = float(student.ppf(0.5 + confidence / 2, freedom))
     summary = _summary(made.x, names, (residuals, told), (model, scene_of), freedom, quantile)
-    for name, (least, most) in bounds.items():
-        (a, b), at = summary.intervals[name], limits.get(name)
-        if at is None and math.isfinite(b - a) and not least <= a <= b <= most:
-            text = f"the interval of {name}, {a:.6g} to {b:.6g}, reaches beyond its bounds, {least:g} to {most:g}"
-            warnings.warn(text, ResultWarning, stacklevel=2)
+    within = {name: ends for name, ends in summary.intervals.items() if limits.get(name) is None}
+    texts = [*_beyond(scene_of, summary.values, within, bounds), *_no_noise(columns, residuals)]
     if error and summary.scale > _MOST_SCATTER:
         text = f"scale is {summary.scale:.3g}: the residuals are so many standard errors of the data, "
-        text += "so the scene with these values does not describe them"
+        texts.append(text + "so the scene with these values does not describe them")
+    for text in texts:
         warnings.warn(text, ResultWarning, stacklevel=2)
     return summary
+
+
+def _beyond(
+    scene_of: Callable[[Mapping[str, float]], Scene],
+    values: Mapping[str, float],
+    intervals: Mapping[str, tuple[float, float]],
+    bounds: Mapping[str, tuple[float, float]],
+) -> list[str]:
+    """Which intervals reach beyond the bounds of their keys, or the values that the scene takes, in words."""
+    texts = []
+    for name, (a, b) in intervals.items():
+        if not math.isfinite(b - a):
+            continue
+        least, most = bounds.get(name, (-math.inf, math.inf))
+        if not least <= a <= b <= most:
+            texts.append(f"the interval of {name}, {a:.6g} to {b:.6g}, reaches beyond its bounds, {least:g} to {most:g}")
+        elif not all(_taken(scene_of, {**values, name: end}) for end in (a, b)):
+            texts.append(f"the interval of {name}, {a:.6g} to {b:.6g}, reaches beyond the values that the scene takes")
+    return texts
+
+
+def _no_noise(columns: Sequence[_Column], residuals: Array) -> list[str]:
+    """That neighbouring residuals of a kind of data correlate, in words."""
+    texts = []
+    parts = np.split(residuals, np.cumsum([len(one.values) for one in columns])[:-1])
+    for column, own in zip(columns, parts, strict=True):
+        square = float(own @ own)
+        alike = float(own[:-1] @ own[1:]) / square if square > 0.0 else 0.0
+        # Of exact data what is left is rounding.
+        rounding = np.sqrt(square) <= _APART * np.linalg.norm(column.values / column.errors)
+        if alike * math.sqrt(len(own)) > _MOST_ALIKE and not rounding:
+            text = f"the residuals of the {column.name} are no noise: those of neighbours correlate by {alike:.2f}, "
+            text += "so the intervals mean nothing; the scene may lack something, or the search may have ended "
+            texts.append(text + "beside the values sought: start nearer to them, or with fewer data")
+    return texts
 
 
 @dataclass(frozen=True)
@@ -375,6 +440,15 @@ def _scale(x0: Array, x: Array, width: Array) -> Array:
     return np.where(size > 0.0, np.minimum(size, width), np.where(np.isfinite(width), width, 1.0))
 
 
+def _taken(scene_of: Callable[[Mapping[str, float]], Scene], values: Mapping[str, float]) -> bool:
+    """True if there is a scene with these values."""
+    try:
+        scene_of(values)
+    except Exception:  # Whatever a function raises beyond the values that it was made for.
+        return False
+    return True
+
+
 def _limits(
     scene_of: Callable[[Mapping[str, float]], Scene],
     values: Mapping[str, float],
@@ -384,11 +458,7 @@ def _limits(
     """The limit at which each key is: a bound, or where there is no scene with larger or smaller values."""
 
     def taken(key: str, value: float) -> bool:
-        try:
-            scene_of({**values, key: value})
-        except Exception:  # Whatever a function raises beyond the values that it was made for.
-            return False
-        return True
+        return _taken(scene_of, {**values, key: value})
 
     def at(key: str, near: float) -> float | None:
         value = values[key]
@@ -507,7 +577,7 @@ def _record(
     def read(by: Derivative) -> tuple[Array, npt.NDArray[np.void]]:
         return by.displacement, by.displacement_by
 
-    return _Record(times[kept], _Column(measured[kept], errors[kept], read, lambda by: by.time))
+    return _Record(times[kept], _Column("displacement", measured[kept], errors[kept], read, lambda by: by.time))
 
 
 class _Model:

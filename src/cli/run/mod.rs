@@ -22,6 +22,7 @@ use crate::output::run_folder;
 use crate::output::summary::Checks;
 use crate::output::supports;
 use crate::run::Run;
+use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::study::realisations::RealisationStudy;
 use accurate::Searched;
@@ -80,7 +81,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let [refinement, truncation] =
         [checked_line("refinement", refinement.as_ref()), checked_line("truncation", truncation.as_ref())];
     let [modes, accuracy] = [checked_line("modes", modes.as_ref()), checked_line("accuracy", accuracy.as_ref())];
-    let order = refinement.as_ref().and_then(|_| first_order(&method));
+    let order = refinement.as_ref().and_then(|_| first_order(&method, &case.scene));
     answer.messages([refinement, order, truncation, modes, accuracy].into_iter().flatten());
     if shortfall.is_some() {
         answer.close_with(", kept in spite of the error below");
@@ -90,15 +91,15 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 }
 
 /// What the refinement by a scheme of order 1 means.
-fn first_order(method: &Method) -> Option<String> {
+fn first_order(method: &Method, scene: &Scene) -> Option<String> {
     let entry = method.scheme.entry();
-    (entry.order == Some(1)).then(|| {
-        format!(
-            "{} is of order 1: its error is about twice what half the step changes, and more where changes of many \
-             impacts cancel",
-            entry.name
-        )
-    })
+    let error = if scene.walls.iter().any(|wall| wall.law.jumps()) {
+        "at a wall with a dashpot its error depends on where its steps meet the wall, and half the step may change far \
+         less; located divides its steps there"
+    } else {
+        "its error is about twice what half the step changes, and more where changes of many impacts cancel"
+    };
+    (entry.order == Some(1)).then(|| format!("{} is of order 1: {error}", entry.name))
 }
 
 /// The run, and the study of realisations where one is wanted.

@@ -4,6 +4,7 @@ use super::judged::{Judged, exact};
 use super::{Against, JudgedBy, Level, Target};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run_with_progress};
+use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::study::change::agree_until;
 use crate::time::TimeOptions;
@@ -78,12 +79,30 @@ pub(super) fn refine(
     target: &Target,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Refined> {
-    refine_by(judged, target, &mut |options| run_with_progress(&judged.scene, method, options, progress))
+    let halvings = Halvings::new(judged, target);
+    if halvings.reference.is_none() {
+        check_halving(&judged.model, method)?;
+    }
+    refine_by(halvings, &mut |options| run_with_progress(&judged.scene, method, options, progress))
+}
+
+/// Refuses a scheme of order 1 at a wall with a dashpot, which pushes from the step on in which a
+/// contact begins: half the step changes nothing where it leaves the first instant within the wall,
+/// whatever the error.
+fn check_halving(scene: &Scene, method: &Method) -> Result<()> {
+    let Some(wall) = scene.walls.iter().find(|wall| wall.law.jumps()) else { return Ok(()) };
+    if method.scheme.entry().order != Some(1) {
+        return Ok(());
+    }
+    let found = format!("{method}, asked for an accuracy at the dashpot of {:?}", wall.name);
+    let expected = "located or no dashpot: a contact begins with a whole step here, so that half the step may change \
+                    far less than the error";
+    Err(Error::invalid("scheme", found, expected))
 }
 
 /// The same, with runs made by `make`.
-fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) -> Result<Run>) -> Result<Refined> {
-    let mut halvings = Halvings::new(judged, target);
+fn refine_by(mut halvings: Halvings<'_>, make: &mut dyn FnMut(&Options) -> Result<Run>) -> Result<Refined> {
+    let Halvings { judged, target, .. } = halvings;
     for level in 0..u64::BITS {
         let steps = judged.coarse.steps.saturating_mul(1 << level);
         if steps > target.most_steps {
@@ -245,7 +264,7 @@ mod tests {
             wall: None,
         };
         let mut steps = 0;
-        let refined = refine_by(&judged, &target, &mut |options| {
+        let refined = refine_by(Halvings::new(&judged, &target), &mut |options| {
             let mut run = run(&judged.scene, &method, options)?;
             steps = run.grid.steps;
             run.findings.push(finding.clone());

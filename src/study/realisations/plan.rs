@@ -50,6 +50,9 @@ pub struct RealisationStudy {
     pub failures: Vec<FailedCheck>,
     /// [`Error::Scattered`] where the interval asked for was not reached.
     pub shortfall: Option<Error>,
+    /// The share of their means that the intervals were asked to have; `None` of a number of
+    /// realisations.
+    pub share: Option<f64>,
 }
 
 impl RealisationPlan<'_> {
@@ -84,7 +87,8 @@ impl RealisationPlan<'_> {
         let (checks, failures) = self.checks(count, make)?;
         let realisations = Realisations::new(members);
         let realisations = if self.checked > 0 { realisations.with_checks(checks) } else { realisations };
-        Ok(RealisationStudy { realisations, failures, shortfall })
+        let share = wanted.map(|(share, _)| share);
+        Ok(RealisationStudy { realisations, failures, shortfall, share })
     }
 
     fn batch(&self, purpose: Purpose, numbers: RangeInclusive<u64>) -> Batch<'_> {
@@ -135,6 +139,26 @@ pub(crate) fn shortfall(members: &[Realisation], share: f64, needed: u64) -> Opt
 }
 
 impl RealisationStudy {
+    /// That an interval came out wider than asked for, although there are as many realisations as
+    /// its pilots called for, in words.
+    #[must_use]
+    pub fn wider_in_words(&self) -> Option<String> {
+        let asked = self.share.filter(|_| self.shortfall.is_none())?;
+        let NeededRealisations { measure, place, pilot_share, .. } = widest(&self.realisations.members)?;
+        (pilot_share > asked).then(|| {
+            format!(
+                "the interval of the {} of {} {:?} is ± {:.1} % of it, wider than the ± {:.1} % asked for: the pilots, \
+                 by which the number of realisations was chosen, scatter less than all of them, as in one study of \
+                 twenty",
+                measure.words(),
+                place.kind.word(),
+                place.name,
+                100.0 * pilot_share,
+                100.0 * asked
+            )
+        })
+    }
+
     /// The runs that the judge refutes, each with what is refined in it, where it belongs to a
     /// check.
     pub fn refuted(&self) -> impl Iterator<Item = (Option<Refined>, &Realisation)> {

@@ -8,11 +8,12 @@
 //!
 //! with the coefficients k_t of the tube and k_s of the support, the radius R of the tube and the
 //! width w of the support. The work rate W comes from a run with the gap of that time, a *window*:
-//! vibration takes seconds, wear takes years, and between two windows W grows straight. W depends on
-//! the gaps of all supports, so that the equations of all of them are solved together, for the work
-//! of each support by sectors and walls, by Heun's method (order 2): windows at the gaps of the
-//! start and at those of a step of Euler's method, of which the mean counts. A step makes no gap
-//! more than half as large again, and is halved where Heun's gap differs from Euler's by more than
+//! vibration takes seconds, wear takes years, and between two windows W grows straight. W depends
+//! on the gaps of all supports, so that the equations of all of them are solved together, for the
+//! work of each support by sectors and walls, by Heun's method (order 2): windows at the gaps of
+//! the start and at those of a step of Euler's method, of which the mean counts. A step makes no
+//! gap more than half as large again, and is halved where Heun's gap differs from Euler's by more
+//! than
 //! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
 //! of the windows: that of the histories, or of a single one by the intervals of its work rates.
 //!
