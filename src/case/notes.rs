@@ -67,10 +67,13 @@ impl Case {
             let (Place::On { body: tube, .. }, Place::On { body: other, .. }) = (&**place, &**to) else { return None };
             let wears = support.wear.support_coefficient.or(self.wear.support_coefficient).is_some_and(|k| k > 0.0);
             (tube != other && wears).then(|| {
+                let its_depth = match support.shape {
+                    SupportShape::Round => "",
+                    _ => ": exchange the two, and their wear coefficients, for its depth",
+                };
                 format!(
                     "at support {:?} depths, limit and the end of the tube are those of the body {tube:?}, which its \
-                     `at` names first; of {other:?}, the support there, the worn volume is told: exchange the two \
-                     for its depth",
+                     `at` names first; of {other:?}, the support there, the worn volume is told{its_depth}",
                     support.name
                 )
             })

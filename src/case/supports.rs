@@ -240,6 +240,16 @@ impl Builder<'_> {
         let radius_of = |place| self.model.beam(place)?.section.outer_diameter().map(|outer| 0.5 * outer);
         let tube = radius_of(place);
         let other_tube = if let Place::Relative { to, .. } = place { radius_of(to) } else { None };
+        let bore = beam.and_then(|beam| beam.section.inner_diameter());
+        if let (Some(_), Some((other, bore))) = (width, other_tube.zip(bore))
+            && *support.required_word("shape").get_ref() == "round"
+            && 2.0 * other <= bore
+        {
+            let title = format!("{}: `at` names first the tube around the other", owner.name);
+            let help = "expected the inner tube first, which bears on the hole: scars are those of its outside";
+            let at = support.span_of("at").unwrap_or(owner.span.clone());
+            return Err(self.source.error(at, &title, help));
+        }
         match (support.span_of("width"), support.span_of("radius")) {
             (None, Some(at)) => {
                 let help = "expected width beside it, in m along the tube: both make the depth of a scar";

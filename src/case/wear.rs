@@ -1,10 +1,9 @@
 //! Reads the table `[wear]`, and makes the law of wear of each support.
 
 use super::builder::Builder;
-use super::model::Model;
 use super::realisations::RANDOM;
 use super::value::Section;
-use super::{Case, Support, SupportShape, TimeOptions};
+use super::{Case, SupportShape, TimeOptions};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::statistics::WearStatistics;
@@ -60,34 +59,24 @@ impl Builder<'_> {
     /// The depth up to which the tube may wear, m.
     fn limit(&self, wear: &Section<'_>) -> Result<Option<f64>> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
-        let of_systems = self.model.systems().filter_map(|model| match model {
-            Model::Beam(beam) => beam.section.wall_thickness(),
-            _ => None,
-        });
-        let walls: Vec<f64> =
-            of_systems.chain(self.written.supports.iter().filter_map(|support| support.wear.wall)).collect();
+        let mut walls = Vec::new();
+        for support in self.written.supports.iter().filter(|support| support.wear.scar.is_some()) {
+            let of_beam = || self.model.beam(&support.place)?.section.wall_thickness();
+            let Some(wall) = support.wear.wall.or_else(of_beam) else {
+                let title = format!("`wear.limit` without the wall of the tube at support {:?}", support.name);
+                let help = "expected wall beside its radius, in m: the limit is a share of it";
+                return Err(self.source.error(limit.span(), &title, help));
+            };
+            walls.push(wall);
+        }
         if walls.windows(2).any(|pair| pair[0] != pair[1]) {
             let help = "expected tubes of one wall thickness: the limit is a share of it";
             return Err(self.source.error(limit.span(), "`wear.limit` beside tubes of different walls", help));
         }
-        let Some(&wall) = walls.first() else {
-            let help = "expected [system.beam] with outer_diameter and inner_diameter, or wall beside radius of each \
-                        [[support]]: the limit is a share of the wall thickness of a tube";
-            return Err(self.source.error(limit.span(), "`wear.limit` without the wall of a tube", help));
-        };
-        let unknown = |support: &&Support| {
-            let of_beam = self.model.beam(&support.place).and_then(|beam| beam.section.wall_thickness());
-            support.wear.scar.is_some() && support.wear.wall.or(of_beam).is_none()
-        };
-        if let Some(support) = self.written.supports.iter().find(unknown) {
-            let title = format!("`wear.limit` without the wall of the tube at support {:?}", support.name);
-            let help = "expected wall beside its radius, in m: the limit is a share of it";
-            return Err(self.source.error(limit.span(), &title, help));
-        }
-        if self.written.supports.iter().all(|support| support.wear.scar.is_none()) {
+        let Some(wall) = walls.first() else {
             let title = "`wear.limit` without a support that has a width";
             return Err(self.source.error(limit.span(), title, &format!("expected {SCAR}")));
-        }
+        };
         match *limit.get_ref() {
             share if share > 0.0 && share <= 1.0 => Ok(Some(share * wall)),
             _ => Err(self.refuse(limit.span(), "wear: limit", "a number above 0 and at most 1, a share of the wall")),

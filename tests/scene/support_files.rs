@@ -98,6 +98,31 @@ fn a_flat_between_two_tubes_is_the_other_tube() {
     assert_eq!(bearing(&text.replace("directions = [0.0]", "directions = [0.0, 180.0]")), Bearing::Flat);
 }
 
+/// A rod in its guide tube: scars are those of the rod, which `at` names first, and so is the wall
+/// of which the limit is a share. Named first, the guide would have the scars of its outside.
+#[test]
+fn the_inner_one_of_two_tubes_is_named_first() {
+    let text = include_str!("../../cases/two-tubes.toml");
+    let round =
+        text.replace("shape = \"flats\"\ndirections = [0.0]          # deg, from +y towards +z", "shape = \"round\"");
+    let rod = round.replacen("outer_diameter = 19.05e-3", "outer_diameter = 15e-3", 1);
+    let rod = rod.replacen("inner_diameter = 15.75e-3", "inner_diameter = 12e-3", 1);
+    assert!(rod != round && round != text);
+    let case = parsed(&rod);
+    assert_eq!(case.wear.limit, Some(0.4 * 1.5e-3));
+    let scar = case.archard(0).unwrap().scar.unwrap();
+    assert_eq!((scar.radius, scar.bearing), (7.5e-3, Bearing::Hole { gap: 0.1e-3 }));
+    let exchanged = rod
+        .replace("{ body = \"left\"", "{ body = \"x\"")
+        .replace("relative_to = { body = \"right\"", "relative_to = { body = \"left\"");
+    let exchanged = exchanged.replace("{ body = \"x\"", "{ body = \"right\"");
+    let error = Case::parse(&exchanged, "guide.toml", "").unwrap_err().to_string();
+    assert!(
+        error.contains("`at` names first the tube around the other") && error.contains("the inner tube first"),
+        "{error}"
+    );
+}
+
 #[test]
 fn a_summary_holds_the_supports_of_its_case() {
     // Read again from its JSON: the same case, also after a change of all restitutions.

@@ -84,6 +84,15 @@ impl BeamSection {
         }
     }
 
+    /// Inner diameter of a tube, m, 0 of a rod; a rectangle has none.
+    #[must_use]
+    pub fn inner_diameter(&self) -> Option<f64> {
+        match *self {
+            Self::Tube { inner_diameter, .. } => Some(inner_diameter),
+            Self::Rectangle { .. } => None,
+        }
+    }
+
     /// Thickness of the wall of a tube, m; of a rod its radius. A rectangle has none.
     #[must_use]
     pub fn wall_thickness(&self) -> Option<f64> {
