@@ -125,7 +125,9 @@ pub fn _run_many<'py>(
         .iter()
         .map(|scene| {
             // Two rows only: the motion is not kept.
-            Plan::new(&scene.scene, scheme, step, Some(scene.scene.duration), statistics_from)
+            let plan = Plan::new(&scene.scene, scheme, step, Some(scene.scene.duration), statistics_from)?;
+            plan.check_step(step)?;
+            Ok(plan)
         })
         .collect::<PyResult<Vec<_>>>()?;
     let mut table = vec![f64::NAN; width * scenes.len()];

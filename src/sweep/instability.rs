@@ -32,6 +32,12 @@ pub(super) fn of_row(case: &Case, scene: &Scene) -> Vec<String> {
     case.unstable_in_flow().into_iter().chain(unstable(scene)).collect()
 }
 
+/// True of a row whose flow is beyond the fluid-elastic limit, by what its `error` says: its work
+/// rates mean nothing.
+pub(super) fn is_meaningless(error: &str) -> bool {
+    error.contains(BEYOND_LIMIT)
+}
+
 /// Rows of a table that say the same of their motion.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Rows {

@@ -27,6 +27,7 @@
 //! scatter of realisations counts as known.
 
 use super::columns::{Source, SweepAxis};
+use super::instability::is_meaningless;
 use super::measure::Measure;
 use super::picture::Picture;
 use super::runs::Runs;
@@ -155,19 +156,20 @@ pub(super) fn shares(source: &Source<'_>) -> Result<Vec<Shares>> {
     Ok(shares.collect())
 }
 
-/// The rows that have a value in each of `columns`, with their keys scaled to [−1, 1].
+/// The rows that have a value in each of `columns` and mean something, with their keys scaled to [−1, 1].
 fn points(source: &Source<'_>, columns: &[String]) -> Result<Vec<Vec<Point>>> {
     let table = Table::open(&source.folder.join(TABLE))?;
     let axes = source.axes.iter().map(|axis| table.column(&axis.column)).collect::<Result<Vec<_>>>()?;
     let values = columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>>>()?;
-    let (status, seeds) = (table.column("status")?, table.column(SEEDS).ok());
+    let (status, error, seeds) = (table.column("status")?, table.column("error")?, table.column(SEEDS).ok());
     let mut all: Vec<Vec<Point>> = vec![Vec::new(); columns.len()];
     table.each(|line| {
         let key = |(axis, &index): (&SweepAxis, &usize)| {
             line.number(index).map(|x| if axis.scale == Scale::Log { x.ln() } else { x })
         };
         let keys: Option<Vec<f64>> = source.axes.iter().zip(&axes).map(key).collect();
-        let (true, Some(keys)) = (Status::is_good_word(line.text(status)), keys) else { return };
+        let counts = Status::is_good_word(line.text(status)) && !is_meaningless(line.text(error));
+        let (true, Some(keys)) = (counts, keys) else { return };
         let count = seeds.and_then(|seeds| line.number(seeds)).unwrap_or(1.0);
         for (points, &value) in all.iter_mut().zip(&values) {
             points.extend(line.number(value).map(|y| (keys.clone(), y, count)));

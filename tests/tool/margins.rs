@@ -108,3 +108,21 @@ fn rows_of_a_sweep_beyond_the_limit_are_told_and_say_so_themselves() {
     // A finished sweep that is read again says the same.
     assert!(sweep("0.5", &["--out", "stable"]).1.contains(told));
 }
+
+#[test]
+fn rows_beyond_the_limit_have_no_part_in_the_shares_of_a_random_design() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = ["tube-in-cross-flow", "--set", "flow.connors=3", "--set", "system.modes=4"];
+    let design = ["--vary", "turbulence.1.velocity=0.8:1.5", "--random", "uniform", "--points", "20"];
+    let own = ["--measure", "work_rate", "--out", "drawn"];
+    said(dir.path(), &[&["sweep"], &case[..], &SHORT, &design, &own].concat(), 0);
+    let lines = |name: &str, column: &str| -> Vec<String> {
+        let mut table = csv::Reader::from_path(dir.path().join("drawn").join(name)).unwrap();
+        let at = table.headers().unwrap().iter().position(|header| header == column).unwrap();
+        table.records().map(|row| row.unwrap()[at].to_owned()).collect()
+    };
+    let stable = lines("sweep.csv", "error").iter().filter(|error| !error.contains("beyond the fluid-elastic")).count();
+    assert!((5..20).contains(&stable), "{stable}");
+    let rows = lines("shares.csv", "rows");
+    assert!(!rows.is_empty() && rows.iter().all(|rows| *rows == stable.to_string()), "{rows:?} of {stable}");
+}

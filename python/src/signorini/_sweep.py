@@ -123,6 +123,9 @@ def run_many(
     if isinstance(scenes, Scene):
         raise TypeError(f"scenes is {scenes!r}; expected a sequence of scenes")
     scenes = list(scenes)
+    for number, scene in enumerate(scenes):
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scenes[{number}] is {scene!r}; expected a Scene, as that of a case: case.scene")
     options = _options(scheme, step, statistics_from, judge, threads)
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:

@@ -54,7 +54,8 @@ function contactSection() {
       ...number(
         "e",
         "Departure over approach",
-        (row) => of("departure")(row) / of("approach")(row),
+        // One that begins at no speed has none.
+        (row) => (of("approach")(row) > 0 ? of("departure")(row) / of("approach")(row) : NaN),
       ),
       title: "Departure speed over approach speed",
     },
