@@ -199,8 +199,8 @@ fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
         ),
         (
             Growth::Flats,
-            "each flat recedes by its scar, of tube and flat or of both tubes together, and the gap is the least of its \
-             flats",
+            "each flat recedes by its scar, of tube and flat or of both tubes together, and the gap is the least of \
+             its flats",
         ),
         (
             Growth::Kept,

@@ -156,7 +156,8 @@ pub(super) fn shares(source: &Source<'_>) -> Result<Vec<Shares>> {
     Ok(shares.collect())
 }
 
-/// The rows that have a value in each of `columns` and mean something, with their keys scaled to [−1, 1].
+/// The rows that have a value in each of `columns` and mean something, with their keys scaled to
+/// [−1, 1].
 fn points(source: &Source<'_>, columns: &[String]) -> Result<Vec<Vec<Point>>> {
     let table = Table::open(&source.folder.join(TABLE))?;
     let axes = source.axes.iter().map(|axis| table.column(&axis.column)).collect::<Result<Vec<_>>>()?;

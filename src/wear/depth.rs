@@ -14,9 +14,9 @@
 //! difference of two segments, R²(α − sin α cos α) − R_h²(β − sin β cos β). In this form, and with
 //! R_h − x = d(2R − d)/(2c), no digits are lost where d is small. The slope is dA/dd = 2h.
 //!
-//! Another tube of the radius R₂ beside it is a hole of the radius R_h = −R₂, for which c, x and the
-//! area under the chord of the hole change their sign as well: A is the lens in which both circles
-//! overlap, the sum of two segments.
+//! Another tube of the radius R₂ beside it is a hole of the radius R_h = −R₂, for which c, x and
+//! the area under the chord of the hole change their sign as well: A is the lens in which both
+//! circles overlap, the sum of two segments.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -240,8 +240,8 @@ mod tests {
             Bearing::Flat.depth(volume, width, radius).unwrap(),
         ];
         assert!((lens / (2.0 * half) - 1.0).abs() < 1e-13, "{lens:e}");
-        // A thinner tube: the lens by the midpoint rule over its thickness, in the angle φ of
-        // y = R₂ sin φ. The thickness has corners where the circles cross: the error of the sum is of
+        // A thinner tube: the lens by the midpoint rule over its thickness, in the angle φ of y =
+        // R₂ sin φ. The thickness has corners where the circles cross: the error of the sum is of
         // the square of the spacing over the lens, at most 1e-7.
         let other = 0.006;
         for depth in [1e-5, 1e-3, 5e-3, 1.15e-2] {

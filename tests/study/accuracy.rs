@@ -240,9 +240,9 @@ fn a_step_found_by_halving_alone_keeps_the_error_too() {
 }
 
 /// A dashpot pushes from the step on in which a contact begins, so that the error of moreau-jean is
-/// of order 1, more or less by where its steps meet the wall: halving the step changes nothing where
-/// it leaves the first instant within the wall. By such changes 3 of 40 of these starts passed with
-/// errors of up to 1.6 times the tolerance. located is the default there, and keeps it.
+/// of order 1, more or less by where its steps meet the wall: halving the step changes nothing
+/// where it leaves the first instant within the wall. By such changes 3 of 40 of these starts
+/// passed with errors of up to 1.6 times the tolerance. located is the default there, and keeps it.
 #[test]
 fn halving_is_refused_at_walls_with_a_dashpot_where_it_does_not_show_the_error() {
     for start in [0, 1, 15, 27] {

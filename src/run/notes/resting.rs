@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 const SLOW: f64 = 0.1;
 
 /// The warning before moreau-jean steps a scene whose load may hold the body on a rigid wall;
-/// `None` without such a wall. It names the schemes that rest on the face of the wall, of those that
-/// take the scene with steps of `step` seconds.
+/// `None` without such a wall. It names the schemes that rest on the face of the wall, of those
+/// that take the scene with steps of `step` seconds.
 pub(crate) fn resting(scene: &Scene, walls: usize, step: f64) -> Option<String> {
     let wall = scene.walls.iter().take(walls).find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
     let takes = |scheme: &Scheme| Stepper::takes(scene, scheme, step);
