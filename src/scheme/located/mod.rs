@@ -95,9 +95,9 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     kind: SchemeKind::Qp,
     restitution: Realised::PerWall,
     realises: "e, per wall",
-    purpose: "the default at rigid flat walls without friction, at elastic walls alone with a dashpot, and for \
-              friction at elastic round supports: order 2 through impacts, since steps are divided where a wall is \
-              struck; round holes and friction too",
+    purpose: "the default at rigid flat walls without friction, at elastic walls with a dashpot, and for friction at \
+              elastic round supports: order 2, since steps are divided where a wall is struck; round holes and \
+              friction too",
     order: Some(2),
     fails: "a step with more than 64 parts ends without rebound (reported); a step that does not resolve what a wall \
             strikes has impulses that depend on it (a note); an impact costs several steps; a body that friction jams \
