@@ -193,12 +193,19 @@ fn unstable(margins: &[FlowMargin]) -> Option<&FlowMargin> {
     FluidElastic::least(margins).filter(|one| one.margin < Some(1.0))
 }
 
+/// A margin with three decimals, or as many more as tell it from 1.
+pub(crate) fn margin_in_words(margin: f64) -> String {
+    let texts = (3..=9).map(|decimals| format!("{margin:.decimals$}"));
+    let tells = |text: &String| text.parse::<f64>().is_ok_and(|shown| (shown < 1.0) == (margin < 1.0));
+    texts.into_iter().find(tells).unwrap_or_else(|| margin.to_string())
+}
+
 fn in_words(connors: f64, one: &FlowMargin) -> String {
     format!(
-        "V_e {:.4} m/s, critical {:.4} m/s, margin {:.3} by Connors with K = {connors}, in the mode of {:.4} Hz{}",
+        "V_e {:.4} m/s, critical {:.4} m/s, margin {} by Connors with K = {connors}, in the mode of {:.4} Hz{}",
         one.effective_velocity_m_per_s,
         one.critical_velocity_m_per_s,
-        one.margin.unwrap_or(f64::INFINITY),
+        margin_in_words(one.margin.unwrap_or(f64::INFINITY)),
         one.frequency_hz,
         one.of_bodies()
     )

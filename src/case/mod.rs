@@ -97,7 +97,7 @@ pub(crate) use check::read as read_values;
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
 #[cfg(feature = "cli")]
-pub(crate) use flow::{BEYOND_LIMIT, UNSTABLE};
+pub(crate) use flow::{BEYOND_LIMIT, UNSTABLE, margin_in_words};
 pub use key::Key;
 #[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};

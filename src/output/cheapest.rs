@@ -141,7 +141,7 @@ pub fn conclusion(scene: &Scene, best: &[Best], quantity: Quantity) -> String {
         })
         .collect();
     let of = match quantity {
-        Quantity::Displacement if scene.walls.is_empty() && scene.supports.is_empty() => "reference length",
+        Quantity::Displacement if scene.gap().is_none() => "reference length",
         _ => whole(quantity),
     };
     format!("for 1 % of the {of}: {}", parts.join(", "))

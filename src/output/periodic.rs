@@ -4,7 +4,7 @@ use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
 use super::request::program;
 use crate::case::read_text;
-use crate::error::{Error, Result, counted};
+use crate::error::{Error, Result, amount, counted};
 use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Orbit, Problem, Shot, Signature};
 use crate::scene::{Scene, State};
 use serde_json::{Value, json};
@@ -47,7 +47,7 @@ pub fn closure_of(scene: &Scene) -> &'static str {
 /// What the closure of an orbit of a structure is a share of.
 #[must_use]
 pub fn shot_closure_of(scene: &Scene) -> String {
-    scene.orbit_gap().map_or_else(|| format!("{:?} m", scene.orbit_length()), |_| "the gap".to_owned())
+    scene.orbit_gap().map_or_else(|| format!("{} m", amount(scene.orbit_length(), 4)), |_| "the gap".to_owned())
 }
 
 fn pairs(multipliers: &[[f64; 2]]) -> Value {

@@ -1,6 +1,6 @@
 //! The fluid-elastic margins of tubes in a cross flow, in words.
 
-use crate::case::Case;
+use crate::case::{Case, margin_in_words};
 use crate::scene::{FlowMargin, FluidElastic};
 
 /// Most modes that are listed one by one, with supports inactive and active alike.
@@ -16,7 +16,9 @@ pub(super) fn margins(case: &Case) -> Vec<String> {
     )];
     for (supports, margins) in [("inactive", &found.inactive), ("active", &found.active)] {
         let line = |one: &FlowMargin| {
-            let margin = one.margin.map_or("no flow reaches it".to_owned(), |margin| format!("margin {margin:.3}"));
+            let margin = one
+                .margin
+                .map_or("no flow reaches it".to_owned(), |margin| format!("margin {}", margin_in_words(margin)));
             format!(
                 "supports {supports}: {:.4} Hz{}, ζ {:.3} %: V_e {:.4} m/s, V_c {:.4} m/s, {margin}",
                 one.frequency_hz,

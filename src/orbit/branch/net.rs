@@ -132,7 +132,8 @@ impl<'r, C: Followed> Net<'r, C> {
             return Some("no orbit of its own branch beside it is stable".to_owned());
         }
         let most = self.request.depth;
-        (depth >= most).then(|| format!("it is more switches from the first branch than were asked for: {}", depth + 1))
+        (depth >= most)
+            .then(|| format!("it is {} switches from the first branch, and at most {most} were asked for", depth + 1))
     }
 
     /// Follows the branch that begins at special point `number`; gives its number, or that of the
