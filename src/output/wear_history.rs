@@ -131,12 +131,17 @@ pub fn table(found: &WearHistories) -> Table {
     let mut header = vec!["support", "year"];
     header.extend(shown().map(|quantity| quantity.words));
     let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
-    // Four figures of the last year.
-    let decimals = (3.0 - end.log10().floor()).clamp(0.0, 12.0) as usize;
+    // Four figures of the last year, or more that tell the rows apart.
+    let years = |decimals: usize| -> Vec<String> {
+        found.points.iter().map(|point| format!("{:.decimals$}", point.time_s / YEAR)).collect()
+    };
+    let fewest = (3.0 - end.log10().floor()).clamp(0.0, 9.0) as usize;
+    let tells = |decimals: &usize| years(*decimals).windows(2).all(|pair| pair[0] != pair[1]);
+    let years = years((fewest..fewest + 3).find(tells).unwrap_or(fewest + 3));
     let mut rows = Vec::new();
     for (support, name) in found.supports.iter().enumerate() {
-        for point in &found.points {
-            let mut row = vec![name.clone(), format!("{:.decimals$}", point.time_s / YEAR)];
+        for (point, year) in found.points.iter().zip(&years) {
+            let mut row = vec![name.clone(), year.clone()];
             row.extend(shown().map(|quantity| {
                 let (mean, half) = mean(point, support, quantity.value);
                 let of = |x: f64| x / quantity.unit;

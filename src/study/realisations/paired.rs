@@ -7,6 +7,9 @@ use super::sample::Realisations;
 use crate::statistics::ContactPlace;
 use serde::Serialize;
 
+/// A difference below this share of the values is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The mean difference in one quantity of one place between two methods, over the realisations that
 /// both have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,7 +38,9 @@ impl Difference {
         let figures = study.members.first().map_or(&[][..], |member| &member.figures);
         let of = |member: &Realisation, place: &ContactPlace, measure| {
             let other = against.members.iter().find(|other| other.number == member.number)?;
-            Some(member.value(place, measure)? - other.value(place, measure)?)
+            let [own, other] = [member.value(place, measure)?, other.value(place, measure)?];
+            let difference = own - other;
+            Some(if difference.abs() <= ROUNDING * own.abs().max(other.abs()) { 0.0 } else { difference })
         };
         let difference = |(place, measure): (&ContactPlace, Measure)| {
             let pairs: Option<Vec<f64>> = study.members.iter().map(|member| of(member, place, measure)).collect();
@@ -72,6 +77,9 @@ mod tests {
         assert!((found.mean - 3.0).abs() < 1e-15);
         let half = 3.182_446_305_284 * (14.0_f64 / 3.0).sqrt() / 2.0;
         assert!((found.half_width_95.unwrap() - half).abs() < 1e-11);
+        // What two methods differ by in rounding is no difference.
+        let near = study(&[(1, 5.0 * (1.0 + 1e-15)), (2, 7.0), (3, 6.0), (4, 12.0 * (1.0 - 1e-14))]);
+        assert_eq!(Difference::all(&one, &near)[0].mean, 0.0);
         // A realisation that one of them lacks leaves nothing to compare.
         assert!(Difference::all(&one, &study(&[(1, 4.0), (2, 5.0)])).is_empty());
     }
