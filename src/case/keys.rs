@@ -241,7 +241,7 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("wear.limit", Number, "", ["no limit", "a number above 0 and at most 1: the depth up to \
         which the tube may wear, as a share of its wall", "where no wall is known: on other systems than \
         a beam without `wall` of each support with a radius; without a support that has a `width`; \
-        without a coefficient"]),
+        without a coefficient of the tube; tubes of different walls"]),
     entry("wear.sectors", Number, "", ["12", "a whole number from 1 to 3600: equal parts of the \
         circle around each support", ""]),
     entry("load", Tables, "", ["no loads", "any number of them, which add up; exactly one kind in \

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::statistics::WearStatistics;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
-use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
+use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar, WearWork};
 use toml::Spanned;
 
 /// The table `[wear]`.
@@ -61,6 +61,12 @@ impl Builder<'_> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
         let mut walls = Vec::new();
         for support in self.written.supports.iter().filter(|support| support.wear.scar.is_some()) {
+            let own = support.wear.coefficient.map_or_else(|| wear.span_of("coefficient"), |_| Some(limit.span()));
+            if own.is_none() {
+                let title = format!("`wear.limit` without a coefficient of the tube at support {:?}", support.name);
+                let help = "expected coefficient, in 1/Pa: support_coefficient is that of the support alone";
+                return Err(self.source.error(limit.span(), &title, help));
+            }
             let of_beam = || self.model.beam(&support.place)?.section.wall_thickness();
             let Some(wall) = support.wear.wall.or_else(of_beam) else {
                 let title = format!("`wear.limit` without the wall of the tube at support {:?}", support.name);
@@ -125,6 +131,17 @@ impl Case {
         let depths = || {
             let (law, growth) = (self.archard(index)?, self.written.supports.get(index)?.growth);
             Some(law.depths(growth, &law.work_in_service(&wear.rates())?))
+        };
+        depths().unwrap_or_default()
+    }
+
+    /// The same of several runs, about their mean work rates, as
+    /// [`WearWork::about_mean`](crate::wear::WearWork).
+    pub(crate) fn depths_about_mean(&self, index: usize, wear: &[&WearStatistics]) -> Vec<Vec<f64>> {
+        let depths = || {
+            let (law, growth) = (self.archard(index)?, self.written.supports.get(index)?.growth);
+            let works: Option<Vec<_>> = wear.iter().map(|wear| law.work_in_service(&wear.rates())).collect();
+            Some(WearWork::about_mean(&works?, |work| law.depths(growth, work)))
         };
         depths().unwrap_or_default()
     }

@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::scene::Support;
 use crate::statistics::WearStatistics;
 use crate::study::realisations::{Deepest, Realisations, mean_of};
-use crate::wear::Worn;
+use crate::wear::{WearWork, Worn};
 use serde_json::{Value, json};
 
 /// A quantity: its name, its unit, its heading in the table, and the number of its units in one
@@ -24,8 +24,8 @@ const QUANTITIES: [(&str, &str, &str, f64); 5] = [
 /// Mean, standard deviation and half width; `None` where a realisation has no value.
 type Mean = Option<(f64, Option<f64>, Option<f64>)>;
 
-/// The means at support number `index`: of the deepest depth that of [`Deepest`], over its sectors
-/// or flats.
+/// The means at support number `index`: depths are those of the mean work rates, and of the deepest
+/// one that of [`Deepest`], over its sectors or flats.
 fn means_at(case: &Case, index: usize, wear: &[&WearStatistics]) -> Option<[Mean; QUANTITIES.len()]> {
     let law = case.archard(index)?;
     let worn: Vec<Worn> = wear.iter().map(|wear| law.worn(wear.work_rate_w)).collect();
@@ -33,13 +33,15 @@ fn means_at(case: &Case, index: usize, wear: &[&WearStatistics]) -> Option<[Mean
         let values: Option<Vec<f64>> = worn.iter().map(of).collect();
         values.filter(|values| !values.is_empty()).map(|values| mean_of(&values))
     };
-    let has_depths = wear.iter().all(|wear| case.depth_deepest(index, wear).is_some());
-    let depths: Vec<Vec<f64>> = wear.iter().filter(|_| has_depths).map(|wear| case.depths(index, wear)).collect();
-    let deepest = (!depths.is_empty()).then(|| Deepest::of(&depths));
+    let depths = case.depths_about_mean(index, wear);
+    let deepest = (!depths.is_empty()).then(|| Deepest::of(&depths)).filter(|found| !found.value.is_nan());
+    let rates: Vec<WearWork> = wear.iter().map(|wear| wear.rates()).collect();
+    let scar = |rates: &WearWork| law.worn(rates.total).depth_one_scar_m.into_iter().collect();
+    let scars: Vec<f64> = WearWork::about_mean(&rates, scar).concat();
     Some([
         mean(|worn| worn.volume_m3),
         deepest.map(|found| (found.value, found.deviation, found.half_width_95)),
-        mean(|worn| worn.depth_one_scar_m),
+        (!scars.is_empty()).then(|| mean_of(&scars)),
         mean(|worn| worn.depth_all_round_m),
         mean(|worn| worn.support_volume_m3),
     ])

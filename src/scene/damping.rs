@@ -91,10 +91,6 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
     }
     let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);
     let n = structure.mass.size();
-    if ratios.len() > n {
-        let found = format!("{} of them for {n} degrees of freedom", ratios.len());
-        return Err(Error::invalid(("damping", "ratios"), found, "at most one for each mode"));
-    }
     if uncoupled {
         let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
         let mut order: Vec<usize> = (0..n).collect();

@@ -35,22 +35,22 @@ pub(crate) fn error_length(scene: &Scene, against: &Trajectory) -> f64 {
     scene.gap().or_else(largest).unwrap_or_else(|| scene.gap_scale())
 }
 
-/// The largest speed at each wall from the time `from` (s) on, m/s, in the scene's order: seen by
-/// the probe on the wall's row; where there is none, the larger of the fastest contact and the
-/// fastest probe.
+/// A contact slower than this share of the speed of the body is a graze.
+const GRAZE: f64 = 0.01;
+
+/// The largest speed at which each wall is struck from the time `from` (s) on, m/s, in the scene's
+/// order, but at least [`GRAZE`] of the largest that the probe on its row sees (where there is none,
+/// of that of the fastest probe); at a wall that is not struck, all of that.
 pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory, from: f64) -> Vec<f64> {
     let first = motion.time().partition_point(|t| *t < from);
     let largest = |column: &Vec<f64>| column.iter().skip(first).fold(0.0, |most: f64, v| most.max(v.abs()));
     let fastest = motion.velocities().iter().map(largest).fold(0.0, f64::max);
     let speed = |(index, wall): (usize, &crate::scene::Wall)| {
+        let here = motion.contacts().iter().filter(|c| c.wall == index && c.start >= from);
+        let struck = here.map(|c| c.approach_speed).reduce(f64::max);
         let probe = scene.probes.iter().position(|p| p.at == *wall.row()).and_then(|p| motion.velocities().get(p));
-        match probe {
-            Some(column) => largest(column),
-            None => {
-                let here = motion.contacts().iter().filter(|c| c.wall == index && c.start >= from);
-                here.fold(fastest, |most, c| most.max(c.approach_speed))
-            }
-        }
+        let there = probe.map_or(fastest, largest);
+        struck.map_or(there, |struck| struck.max(GRAZE * there))
     };
     scene.walls.iter().enumerate().map(speed).collect()
 }

@@ -18,6 +18,7 @@
 
 use super::archard::{Archard, Scar};
 use super::depth::{Bearing, all_round};
+use super::wear_work::WearWork;
 use serde::{Deserialize, Serialize};
 
 /// What its wear does to the gaps of a support.
@@ -34,89 +35,6 @@ pub enum Growth {
     Shifted,
     /// Each flat recedes by its scar.
     Flats,
-}
-
-/// Work of wear at a support, J; as a rate, W.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct WearWork {
-    /// All of it.
-    pub total: f64,
-    /// That of each of equal sectors, from +y towards +z.
-    pub sectors: Vec<f64>,
-    /// That of each wall of the support, in their order.
-    pub walls: Vec<f64>,
-}
-
-impl WearWork {
-    /// None, at a support of so many walls in so many sectors.
-    #[must_use]
-    pub fn none(sectors: usize, walls: usize) -> Self {
-        Self { total: 0.0, sectors: vec![0.0; sectors], walls: vec![0.0; walls] }
-    }
-
-    /// The work after `time` (s) at the mean of two rates.
-    #[must_use]
-    pub fn advanced(&self, first: &Self, second: &Self, time: f64) -> Self {
-        self.with(first, second, |work, first, second| work + time * (0.5 * (first + second)))
-    }
-
-    /// The work and, everywhere, what `time` (s) makes of the difference of two rates.
-    #[must_use]
-    pub(crate) fn plus_difference(&self, first: &Self, second: &Self, time: f64) -> Self {
-        self.with(first, second, |work, first, second| work + time * (second - first).abs())
-    }
-
-    /// The straight way from here to `other`, at the share `share` of it.
-    #[must_use]
-    pub(crate) fn towards(&self, other: &Self, share: f64) -> Self {
-        self.with(self, other, |_, from, to| from + share * (to - from))
-    }
-
-    /// The work, and its rate, at the share `share` of a step of `step` seconds that makes the work
-    /// `after` of it, where the rate grows straight from `rate` on.
-    #[must_use]
-    pub(crate) fn within(&self, rate: &Self, after: &Self, step: f64, share: f64) -> (Self, Self) {
-        let work = self.with(rate, after, |work, rate, after| {
-            let even = step * rate;
-            work + share * (even + share * (after - work - even))
-        });
-        let rates = self.with(rate, after, |work, rate, after| {
-            let grown = if step > 0.0 { (after - work) / step - rate } else { 0.0 };
-            rate + 2.0 * share * grown
-        });
-        (work, rates)
-    }
-
-    /// What `of` makes of the work and two rates, of all and of each part.
-    fn with(&self, first: &Self, second: &Self, of: impl Fn(f64, f64, f64) -> f64) -> Self {
-        let all = |work: &[f64], first: &[f64], second: &[f64]| {
-            let each = work.iter().zip(first.iter().zip(second));
-            each.map(|(work, (first, second))| of(*work, *first, *second)).collect()
-        };
-        Self {
-            total: of(self.total, first.total, second.total),
-            sectors: all(&self.sectors, &first.sectors, &second.sectors),
-            walls: all(&self.walls, &first.walls, &second.walls),
-        }
-    }
-
-    /// The same, `factor` times as large everywhere.
-    #[must_use]
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        let all = |work: &[f64]| work.iter().map(|work| factor * work).collect();
-        Self { total: factor * self.total, sectors: all(&self.sectors), walls: all(&self.walls) }
-    }
-
-    /// ∫ E(θ) (cos θ, sin θ) dθ, J, with the work of each sector spread evenly over it.
-    fn first_harmonic(&self) -> [f64; 2] {
-        let width = std::f64::consts::TAU / self.sectors.len() as f64;
-        let parts = self.sectors.iter().enumerate().map(|(k, work)| {
-            let (from, to) = (k as f64 * width, (k + 1) as f64 * width);
-            [to.sin() - from.sin(), from.cos() - to.cos()].map(|part| work * part / width)
-        });
-        parts.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
-    }
 }
 
 /// What wear has made of the gaps of a support.

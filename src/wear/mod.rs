@@ -12,7 +12,7 @@
 //! `stretch.rs` integrates over exact motion, `work.rs` is the work of wear of an impulse,
 //! `sectors.rs` the part of the circle in which a contact lies, `archard.rs` the volume that the
 //! work wears off, `depth.rs` the depth of its scar, `growth.rs` what that does to the gaps of a
-//! support.
+//! support, `wear_work.rs` the work by sectors and walls.
 
 mod archard;
 mod blows;
@@ -22,6 +22,7 @@ mod growth;
 mod piece;
 mod sectors;
 mod stretch;
+mod wear_work;
 mod work;
 
 #[cfg(feature = "case")]
@@ -29,6 +30,7 @@ pub(crate) use archard::SCAR;
 pub use archard::{Archard, Scar, Worn};
 pub(crate) use contacts::SlidingContacts;
 pub use depth::Bearing;
-pub use growth::{Growth, Opening, WearWork};
+pub use growth::{Growth, Opening};
 pub(crate) use piece::{ImpulseDuration, SlidingPiece};
 pub(crate) use sectors::sectors_over;
+pub use wear_work::WearWork;

@@ -55,8 +55,9 @@ pub struct Args {
     pub(super) scheme: Option<String>,
     /// Find scheme and step for this error, 1e-3 or 0.1%. Of a motion it is a share of the gap
     /// (without one, of the largest displacement) and, for the impulse, contacts, impact energy,
-    /// contact time and, at springs, peak force of each wall, of the largest of all walls; RMS and
-    /// largest forces at rigid walls are not judged; for a case reduced to modes, the number of
+    /// peak force at springs of each wall, of the largest of all walls (at least of an impact at a
+    /// hundredth of the body's speed), and for the contact time of the window; RMS and largest
+    /// forces at rigid walls are not judged; for a case reduced to modes, the number of
     /// modes is found too; exit code 1 if it is not kept to the end. Of means it is a share of the
     /// work rates, mean and RMS forces over realisations: the coarsest step whose part in their
     /// errors is within it is found, and as many seeds as its interval and theirs take; exit code 1

@@ -95,13 +95,20 @@ impl<'a> Course<'a> {
         if accrued.is_empty() || accrued.iter().any(|(work, _)| !work.total.is_finite()) {
             return None;
         }
-        if self.quantity == WearQuantity::DepthDeepest && accrued.len() > 1 {
-            let depths: Vec<_> = accrued.iter().map(|(work, _)| self.support.depths(work)).collect();
-            let deepest = Deepest::of(&depths);
-            return Some((deepest.value, deepest.half_width_95));
-        }
-        let state = |(work, rate): &(WearWork, f64)| self.support.state(work, *rate);
-        let values: Vec<f64> = accrued.iter().map(|accrued| self.quantity.of(&state(accrued))).collect();
+        let works = || accrued.iter().map(|(work, _)| work.clone()).collect::<Vec<_>>();
+        let values: Vec<f64> = match self.quantity {
+            WearQuantity::DepthDeepest if accrued.len() > 1 => {
+                let deepest = Deepest::of(&WearWork::about_mean(&works(), |work| self.support.depths(work)));
+                return Some((deepest.value, deepest.half_width_95));
+            }
+            WearQuantity::DepthOneScar => {
+                WearWork::about_mean(&works(), |work| vec![self.support.depth_one_scar(work)]).concat()
+            }
+            _ => {
+                let state = |(work, rate): &(WearWork, f64)| self.support.state(work, *rate);
+                accrued.iter().map(|accrued| self.quantity.of(&state(accrued))).collect()
+            }
+        };
         let (mean, _, half_width) = mean_of(&values);
         Some((mean, half_width))
     }

@@ -22,10 +22,14 @@ pub struct WearPoint {
     /// work of NaN where a window has no interval. None of several histories, whose scatter tells
     /// more.
     pub largest: Vec<WearState>,
-    /// Of each history, at each support: the depth worn off the tube in each sector of a round
-    /// support, or at each flat, m; none of a tube that does not wear.
+    /// At each support, of each history: the depth worn off the tube in each sector of a round
+    /// support, or at each flat, m, by the mean work of all histories and, about it, by what the
+    /// work of this one departs from it; none of a tube that does not wear.
     #[serde(skip)]
-    pub depths_m: Vec<Vec<Vec<f64>>>,
+    pub(super) depths_m: Vec<Vec<Vec<f64>>>,
+    /// Likewise the depth of one scar of all of the work, m.
+    #[serde(skip)]
+    pub(super) scars_m: Vec<Vec<f64>>,
     /// The work so far.
     #[serde(skip)]
     pub(super) work: Accrual,
@@ -49,7 +53,11 @@ impl WearPoint {
             time_s,
             histories: states(&work.found, &rates.found),
             largest: states(&work.largest, &rates.largest).concat(),
-            depths_m: work.found.iter().map(|history| depths(supports, history)).collect(),
+            depths_m: about_mean(supports, &work.found, |support, work| support.depths(work)),
+            scars_m: about_mean(supports, &work.found, |support, work| vec![support.depth_one_scar(work)])
+                .into_iter()
+                .map(|histories| histories.concat())
+                .collect(),
             work,
             rates,
         }
@@ -60,11 +68,6 @@ impl WearPoint {
         let step = other.time_s - self.time_s;
         let (work, rates) = self.work.within(&self.rates, &other.work, step, share);
         Self::new(supports, self.time_s + share * step, work, rates)
-    }
-
-    /// The depths of all parts of a support, by number, in each history, m.
-    pub(super) fn depths(&self, support: usize) -> Vec<Vec<f64>> {
-        self.depths_m.iter().filter_map(|supports| supports.get(support).cloned()).collect()
     }
 
     /// A support, by number, as it would be with the largest work rates, where these are known.
@@ -111,6 +114,19 @@ pub struct LimitReached {
     pub histories: Vec<Option<f64>>,
 }
 
+/// At each support what `depths` makes of the work of each history, about their mean.
+fn about_mean(
+    supports: &[WearingSupport],
+    work: &Works,
+    depths: impl Fn(&WearingSupport, &WearWork) -> Vec<f64>,
+) -> Vec<Vec<Vec<f64>>> {
+    let at = |(index, support): (usize, &WearingSupport)| {
+        let own: Vec<WearWork> = work.iter().filter_map(|history| history.get(index).cloned()).collect();
+        WearWork::about_mean(&own, |work| depths(support, work))
+    };
+    supports.iter().enumerate().map(at).collect()
+}
+
 /// The depths that the work (J) of a history has worn off the tube at each support, m.
 pub(super) fn depths(supports: &[WearingSupport], history: &[WearWork]) -> Vec<Vec<f64>> {
     supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
@@ -148,15 +164,19 @@ pub struct WearHistories {
 /// history by the half widths of the work rates of its windows, as if these erred all alike, and
 /// the estimated errors of its steps. Of the deepest depth it is the largest of the means of all
 /// parts; its half width holds the bias of taking the largest, by the jackknife over the histories.
+/// Depths of scars are those of the mean work, [`WearWork::about_mean`].
 #[must_use]
 pub fn mean(point: &WearPoint, support: usize, quantity: WearQuantity) -> (f64, Option<f64>) {
     let largest = point.largest(support).map(|state| quantity.of(state));
     if quantity == WearQuantity::DepthDeepest {
-        let found = Deepest::of(&point.depths(support));
+        let found = Deepest::of(point.depths_m.get(support).map_or(&[], Vec::as_slice));
         return within(found.value, found.half_width_95, largest);
     }
     let states = point.histories.iter().filter_map(|states| states.get(support));
-    let values: Vec<f64> = states.map(|state| quantity.of(state)).collect();
+    let values: Vec<f64> = match quantity {
+        WearQuantity::DepthOneScar => point.scars_m.get(support).cloned().unwrap_or_default(),
+        _ => states.map(|state| quantity.of(state)).collect(),
+    };
     let (mean, _, half_width) = mean_of(&values);
     within(mean, half_width, largest)
 }
@@ -188,8 +208,8 @@ impl WearHistories {
     /// support, m, and the half width of its 95 % interval, as of [`mean`].
     #[must_use]
     pub fn mean_depths_at_end(&self, support: usize) -> Vec<(f64, Option<f64>)> {
-        let own: Vec<&Vec<f64>> = self.depths_at_end_m.iter().filter_map(|supports| supports.get(support)).collect();
-        let parts = own.first().map_or(0, |depths| depths.len());
+        let own = self.points.last().and_then(|point| point.depths_m.get(support)).map_or(&[][..], Vec::as_slice);
+        let parts = own.first().map_or(0, Vec::len);
         let part = |part: usize| {
             let values: Vec<f64> = own.iter().filter_map(|depths| depths.get(part).copied()).collect();
             let largest = self.largest_depths_at_end_m.get(support).and_then(|depths| depths.get(part));

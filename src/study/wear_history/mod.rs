@@ -122,7 +122,7 @@ impl WearPlan<'_> {
             let point = WearPoint::new(self.supports, time, accrued, rates.clone());
             let last = time >= self.service || found.worn_through.is_some();
             if last {
-                found.depths_at_end_m.clone_from(&point.depths_m);
+                found.depths_at_end_m = work.iter().map(|history| depths(self.supports, history)).collect();
             }
             found.points.push(point);
             if last {
@@ -164,8 +164,8 @@ impl WearPlan<'_> {
     fn worn_through(&self, time: f64, work: &Works) -> Option<WornThrough> {
         self.supports.iter().enumerate().find_map(|(index, support)| {
             let depth_m = support.end()?;
-            let own = work.iter().filter_map(|history| history.get(index));
-            let depth = Deepest::of(&own.map(|work| support.depths(work)).collect::<Vec<_>>()).value;
+            let own: Vec<WearWork> = work.iter().filter_map(|history| history.get(index).cloned()).collect();
+            let depth = Deepest::of(&WearWork::about_mean(&own, |work| support.depths(work))).value;
             let is_through = depth.is_nan() || depth >= depth_m;
             let wall_m = support.wall;
             is_through.then(|| WornThrough { support: support.name.clone(), wall_m, depth_m, time_s: time })

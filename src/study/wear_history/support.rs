@@ -2,7 +2,7 @@
 
 use super::state::WearState;
 use crate::scene::Scene;
-use crate::wear::{Archard, Growth, Opening, WearWork};
+use crate::wear::{Archard, Growth, Opening, WearWork, Worn};
 
 /// A support that wears.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,8 +67,7 @@ impl WearingSupport {
 
     /// The state after the work `work` (J) at the work rate `rate` (W).
     pub(super) fn state(&self, work: &WearWork, rate: f64) -> WearState {
-        let worn = Archard { service: 1.0, ..self.law }.worn(work.total);
-        let one_scar = worn.depth_one_scar_m.unwrap_or(f64::NAN);
+        let worn = self.worn(work);
         WearState {
             gap_m: self.gaps_after(work).into_iter().fold(f64::INFINITY, f64::min),
             shift_m: self.opening(work).shift,
@@ -76,7 +75,18 @@ impl WearingSupport {
             work_rate_w: rate,
             depth_deepest_m: self.law.deepest(self.growth, work),
             depth_all_round_m: worn.depth_all_round_m.unwrap_or(0.0),
-            depth_one_scar_m: if work.total > 0.0 && worn.volume_m3.is_some() { one_scar } else { 0.0 },
+            depth_one_scar_m: self.depth_one_scar(work),
         }
+    }
+
+    fn worn(&self, work: &WearWork) -> Worn {
+        Archard { service: 1.0, ..self.law }.worn(work.total)
+    }
+
+    /// The depth if the work `work` (J) makes one scar, m; NaN where that would cut the tube in two.
+    pub(super) fn depth_one_scar(&self, work: &WearWork) -> f64 {
+        let worn = self.worn(work);
+        let wears = work.total > 0.0 && worn.volume_m3.is_some();
+        if wears { worn.depth_one_scar_m.unwrap_or(f64::NAN) } else { 0.0 }
     }
 }
