@@ -24,11 +24,11 @@ pub struct Change {
 }
 
 /// Changes at one wall or round support, over the window of the statistics. Each is relative to the
-/// largest value at any wall of the scene, or to the value of a single impact at the speed v if that
-/// is larger (with the mass m that the wall feels, [`Scene::wall_masses`]): the largest at which
-/// this wall is struck in the window, and at least a hundredth of that of the body there; where it
-/// is not struck, all of that. So a wall that one of two motions grazes does not dominate, and one
-/// that both touch softly counts by what it gets.
+/// largest value at any wall of the scene, or to the value of a single impact at the speed v if
+/// that is larger (with the mass m that the wall feels, [`Scene::wall_masses`]): the largest at
+/// which this wall is struck in the window, and at least a hundredth of that of the body there;
+/// where it is not struck, all of that. So a wall that one of two motions grazes does not dominate,
+/// and one that both touch softly counts by what it gets.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WallChange {

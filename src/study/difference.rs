@@ -39,8 +39,8 @@ pub(crate) fn error_length(scene: &Scene, against: &Trajectory) -> f64 {
 const GRAZE: f64 = 0.01;
 
 /// The largest speed at which each wall is struck from the time `from` (s) on, m/s, in the scene's
-/// order, but at least [`GRAZE`] of the largest that the probe on its row sees (where there is none,
-/// of that of the fastest probe); at a wall that is not struck, all of that.
+/// order, but at least [`GRAZE`] of the largest that the probe on its row sees (where there is
+/// none, of that of the fastest probe); at a wall that is not struck, all of that.
 pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory, from: f64) -> Vec<f64> {
     let first = motion.time().partition_point(|t| *t < from);
     let largest = |column: &Vec<f64>| column.iter().skip(first).fold(0.0, |most: f64, v| most.max(v.abs()));

@@ -83,7 +83,8 @@ impl WearingSupport {
         Archard { service: 1.0, ..self.law }.worn(work.total)
     }
 
-    /// The depth if the work `work` (J) makes one scar, m; NaN where that would cut the tube in two.
+    /// The depth if the work `work` (J) makes one scar, m; NaN where that would cut the tube in
+    /// two.
     pub(super) fn depth_one_scar(&self, work: &WearWork) -> f64 {
         let worn = self.worn(work);
         let wears = work.total > 0.0 && worn.volume_m3.is_some();
