@@ -4,6 +4,7 @@ use super::beam::elements_of_modes;
 use super::{Case, Model, Origin, Place, SupportShape, Truncated, WallsOverBase};
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
+use crate::wear::Bearing;
 
 /// Shares below this are not reported.
 const WORTH_SAYING: f64 = 1e-2;
@@ -17,6 +18,7 @@ impl Case {
         notes.extend(self.open_supports());
         notes.extend(self.unusual_values());
         notes.extend(self.wear_of_one());
+        notes.extend(self.scars_on_flats());
         notes.extend(self.start_note());
         notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
@@ -57,6 +59,23 @@ impl Case {
                 _ => "stand within a half turn: it bounds the motion on their side only".to_owned(),
             };
             Some(format!("the flats of support {:?} {said}", flats.name))
+        })
+    }
+
+    /// Supports of one flat between two bodies, of which the other may be round.
+    fn scars_on_flats(&self) -> impl Iterator<Item = String> {
+        self.written.supports.iter().enumerate().filter_map(|(index, support)| {
+            let Place::Relative { to, .. } = &support.place else { return None };
+            let Place::On { body, .. } = &**to else { return None };
+            let one = matches!(&support.shape, SupportShape::Flats(flats) if flats.flats.len() == 1);
+            let flat = self.archard_within(1.0, index)?.scar?.bearing == Bearing::Flat;
+            (one && flat).then(|| {
+                format!(
+                    "the scar at support {:?} is that of a tube on a flat: the body {body:?} is no beam of a round \
+                     section, by whose radius it would be that of two tubes",
+                    support.name
+                )
+            })
         })
     }
 

@@ -108,7 +108,7 @@ impl Case {
 
     /// The law of wear of support number `index` within `service` seconds; `None` where the case
     /// has no coefficient for it.
-    fn archard_within(&self, service: f64, index: usize) -> Option<Archard> {
+    pub(super) fn archard_within(&self, service: f64, index: usize) -> Option<Archard> {
         let wear = self.written.supports.get(index)?.wear;
         let coefficient = wear.coefficient.or(self.wear.coefficient);
         let support_coefficient = wear.support_coefficient.or(self.wear.support_coefficient);
@@ -137,6 +137,7 @@ impl Case {
 
     /// The same of several runs, about their mean work rates, as
     /// [`WearWork::about_mean`](crate::wear::WearWork).
+    #[cfg(feature = "cli")]
     pub(crate) fn depths_about_mean(&self, index: usize, wear: &[&WearStatistics]) -> Vec<Vec<f64>> {
         let depths = || {
             let (law, growth) = (self.archard(index)?, self.written.supports.get(index)?.growth);

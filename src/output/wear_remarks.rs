@@ -6,7 +6,9 @@ use crate::case::Case;
 use crate::error::amount;
 use crate::order::sort_by_number;
 use crate::study::realisations::Groups;
-use crate::study::wear_history::{LimitReached, TimeOfLimit, WearHistories, WearQuantity, WornThrough, YEAR, mean};
+use crate::study::wear_history::{
+    LimitReached, TimeOfLimit, WearHistories, WearQuantity, WearState, WornThrough, YEAR, mean,
+};
 use crate::wear::Growth;
 
 /// When the limit is reached, and what the figures mean, a sentence each.
@@ -134,13 +136,18 @@ fn groups(found: &WearHistories) -> Vec<String> {
 /// What the interval of a single history is.
 fn single(case: &Case, found: &WearHistories) -> Option<String> {
     let largest = &found.points.last()?.largest;
-    let [known, lacking] = [true, false].map(|known| largest.iter().any(|state| state.work_j.is_finite() == known));
+    let is_known = |state: &WearState| state.work_j.is_finite();
+    let [known, lacking] = [true, false].map(|known| largest.iter().any(|state| is_known(state) == known));
     let one = if case.is_random() { "one history" } else { "nothing is random here, so that there is one history" };
     let interval = match (known, lacking) {
         (false, false) => return None,
         (true, _) => {
             "± is what the 95 % intervals of the work rates of its windows make of it, as if these erred all alike, \
              and the estimated errors of its steps over the years"
+        }
+        (false, true) if found.points.iter().skip(1).any(|point| point.largest.iter().any(is_known)) => {
+            "± is what the 95 % intervals of the work rates of its windows make of it, until one is too short for an \
+             interval of its work rate: what comes after it has none"
         }
         (false, true) => "it has no interval: its windows are too short for one of their work rates",
     };

@@ -96,6 +96,19 @@ fn a_flat_between_two_tubes_is_the_other_tube() {
     let bearing = |text: &str| parsed(text).archard(0).unwrap().scar.unwrap().bearing;
     assert_eq!(bearing(text), Bearing::Tube { radius: 0.5 * 19.05e-3 });
     assert_eq!(bearing(&text.replace("directions = [0.0]", "directions = [0.0, 180.0]")), Bearing::Flat);
+    assert!(!parsed(text).notes().join("\n").contains("on a flat"));
+    // A body without a round section has a flat, which is said.
+    let (before, after) = text.split_once("[[body]]\nname = \"right\"").unwrap();
+    let (beam, after) = after.split_once("[[support]]").unwrap();
+    let chain = beam.split_once("[body.beam]").unwrap().0.to_owned()
+        + "[body.chain]\nmasses = [1.0]\nsprings = []\nleft = { stiffness = 1e4 }\n";
+    let after =
+        after.replace("relative_to = { body = \"right\", position = 1.0 }", "relative_to = { body = \"right\" }");
+    let (supports, turbulence) = after.split_once("[[turbulence]]\nbody = \"right\"").unwrap();
+    let wear = turbulence.split_once("[wear]").unwrap().1;
+    let text = format!("{before}[[body]]\nname = \"right\"{chain}[[support]]{supports}[wear]{wear}");
+    assert_eq!(bearing(&text), Bearing::Flat);
+    assert!(parsed(&text).notes().join("\n").contains("is that of a tube on a flat: the body \"right\""));
 }
 
 /// A rod in its guide tube: scars are those of the rod, which `at` names first, and so is the wall

@@ -164,7 +164,7 @@ pub struct WearHistories {
 /// history by the half widths of the work rates of its windows, as if these erred all alike, and
 /// the estimated errors of its steps. Of the deepest depth it is the largest of the means of all
 /// parts; its half width holds the bias of taking the largest, by the jackknife over the histories.
-/// Depths of scars are those of the mean work, [`WearWork::about_mean`].
+/// Depths of scars are those of the mean work, in place of their means over the histories.
 #[must_use]
 pub fn mean(point: &WearPoint, support: usize, quantity: WearQuantity) -> (f64, Option<f64>) {
     let largest = point.largest(support).map(|state| quantity.of(state));
