@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::statistics::WearStatistics;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
-use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar, WearWork};
+use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
 use toml::Spanned;
 
 /// The table `[wear]`.
@@ -142,7 +142,7 @@ impl Case {
         let depths = || {
             let (law, growth) = (self.archard(index)?, self.written.supports.get(index)?.growth);
             let works: Option<Vec<_>> = wear.iter().map(|wear| law.work_in_service(&wear.rates())).collect();
-            Some(WearWork::about_mean(&works?, |work| law.depths(growth, work)))
+            Some(crate::wear::WearWork::about_mean(&works?, |work| law.depths(growth, work)))
         };
         depths().unwrap_or_default()
     }
