@@ -194,23 +194,18 @@ impl WearHistories {
     }
 
     /// When the mean over the histories reaches `limit` (m) after their end, if the work of all
-    /// goes on to grow at the rates of the last windows; `None` where one has reached it, or does
+    /// goes on to grow at the rates of the last windows; `None` where it has reached it, or does
     /// not grow.
     #[must_use]
     pub fn reaches_at_last_rate(&self, support: usize, limit: f64, quantity: WearQuantity) -> Option<TimeOfLimit> {
-        if self.is_deepest_of_several(quantity) {
-            let course = self.course(support, quantity, Of::Mean)?;
-            let time_s = course.reaches_later(limit)?;
-            return Some(TimeOfLimit { time_s, half_width_95_s: course.half_width_of(time_s) });
-        }
-        let own = |history: usize| self.course(support, quantity, Of::History(history))?.reaches_later(limit);
-        let times: Vec<f64> = (0..self.count()).map(own).collect::<Option<_>>()?;
-        let (time_s, _, half_width) = mean_of(&times);
+        let course = self.course(support, quantity, Of::Mean)?;
+        let time_s = course.reaches_later(limit)?;
         let largest = || {
             let course = self.course(support, quantity, Of::Largest)?;
             course.reaches(limit).or_else(|| course.reaches_later(limit)).map(|earlier| time_s - earlier)
         };
-        (!times.is_empty()).then(|| TimeOfLimit { time_s, half_width_95_s: half_width.or_else(largest) })
+        let half_width_95_s = if self.count() > 1 { course.half_width_of(time_s) } else { largest() };
+        Some(TimeOfLimit { time_s, half_width_95_s })
     }
 
     /// When a quantity of a support reaches `limit`: by the mean and in each history, or else at
