@@ -300,8 +300,8 @@ mod tests {
         // the mean rate of 0.015 mm a year.
         assert_eq!(mean(deepest), "8 ± 34");
         assert!(among(&each, deepest).contains("each by its own deepest part after 6 to 12"));
-        // 0.6 mm: after 60 and 30 years at those rates, and after 40 at the mean of them, which years
-        // of service have, with 12.706 times 0.2 mm over it. The mean of 60 and 30 would be late.
+        // 0.6 mm: after 60 and 30 years at those rates, and after 40 at the mean of them, which
+        // years of service have, with 12.706 times 0.2 mm over it. The mean of 60 and 30 is late.
         let half_width = 12.706_204_736 * 0.2 / 0.015;
         for quantity in [depth, deepest] {
             let later = found.reaches_at_last_rate(0, 6e-4, quantity).unwrap();
