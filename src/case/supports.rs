@@ -269,20 +269,24 @@ impl Builder<'_> {
         Ok(WearData {
             scar: width.zip(radius.or(tube)),
             other_tube,
-            wall: self.wall_of(owner, support, radius)?,
+            wall: self.wall_of(owner, support, radius, tube.is_some())?,
             coefficient: coefficient?.or(material.and_then(|own| own.coefficient)),
             support_coefficient: support_coefficient?.or(material.and_then(|own| own.support_coefficient)),
         })
     }
 
-    /// The thickness of the wall of a tube of the radius `radius`, which no beam has.
-    fn wall_of(&self, owner: &Owner, support: &Section<'_>, radius: Option<f64>) -> Result<Option<f64>> {
+    /// The thickness of the wall of a tube of the radius `radius`, which a beam has in its diameters.
+    fn wall_of(&self, owner: &Owner, support: &Section<'_>, radius: Option<f64>, is_beam: bool) -> Result<Option<f64>> {
         let (Some(wall), Some(at)) = (self.above_0(&owner.name, "wall", "m", support)?, support.span_of("wall")) else {
             return Ok(None);
         };
+        if is_beam {
+            let title = format!("{} has a wall, and the system is a beam", owner.name);
+            return Err(self.source.error(at, &title, "expected no wall: that of a beam follows from its diameters"));
+        }
         let Some(radius) = radius else {
             let title = format!("{} has a wall and no radius", owner.name);
-            let help = "expected width and radius beside it, in m; the wall of a beam follows from its diameters";
+            let help = "expected width and radius beside it, in m";
             return Err(self.source.error(at, &title, help));
         };
         if wall > radius {

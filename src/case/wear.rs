@@ -61,8 +61,9 @@ impl Builder<'_> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
         let mut walls = Vec::new();
         for support in self.written.supports.iter().filter(|support| support.wear.scar.is_some()) {
-            let own = support.wear.coefficient.map_or_else(|| wear.span_of("coefficient"), |_| Some(limit.span()));
-            if own.is_none() {
+            let has = |own: Option<f64>, key: &str| own.is_some() || wear.span_of(key).is_some();
+            let of_support = has(support.wear.support_coefficient, "support_coefficient");
+            if of_support && !has(support.wear.coefficient, "coefficient") {
                 let title = format!("`wear.limit` without a coefficient of the tube at support {:?}", support.name);
                 let help = "expected coefficient, in 1/Pa: support_coefficient is that of the support alone";
                 return Err(self.source.error(limit.span(), &title, help));

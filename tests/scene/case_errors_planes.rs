@@ -141,6 +141,8 @@ const WRONG: &[Wrong] = &[
     ("wear of infinity", "[time]", "[wear]\nsupport_coefficient = inf\nservice = 1.0\n\n[time]", "46:23", &["wear: support_coefficient", "above 0, in 1/Pa"]),
     ("a limit of no depth", "[system.beam]", "[wear]\ncoefficient = 1e-14\nlimit = 0.4\n\n[system.beam]\ninner_diameter = 0.016", "7:9", &["`wear.limit` without a support that has a width", "expected a support with width"]),
     ("a limit of no wear", "[system.beam]", "[[support]]\nname = \"plate\"\nat = { position = 2.0 }\nshape = \"round\"\ngap = 1e-3\nwidth = 0.02\n\n[wear]\nlimit = 0.4\n\n[system.beam]\ninner_diameter = 0.016", "13:9", &["a limit and no coefficient", "in 1/Pa"]),
+    ("a limit of the support's wear", "[system.beam]", "[[support]]\nname = \"plate\"\nat = { position = 2.0 }\nshape = \"round\"\ngap = 1e-3\nwidth = 0.02\n\n[wear]\nsupport_coefficient = 1e-14\nlimit = 0.4\n\n[system.beam]\ninner_diameter = 0.016", "14:9", &["without a coefficient of the tube at support \"plate\"", "expected coefficient, in 1/Pa"]),
+    ("a wall of a beam", "[[support]]", "[[support]]\nwall = 1e-3", "25:8", &["has a wall, and the system is a beam", "expected no wall"]),
     ("no time in service", "[time]", "[wear]\ncoefficient = 1e-14\nservice = 0.0\n\n[time]", "47:11", &["wear: service", "above 0, in s"]),
     ("service backwards", "[time]", "[wear]\ncoefficient = 1e-14\nservice = -1.0\n\n[time]", "47:11", &["wear: service", "above 0, in s"]),
     ("a service of what", "[time]", "[wear]\nservice = 1.0\n\n[time]", "46:11", &["a service and no coefficient", "in 1/Pa"]),
