@@ -275,7 +275,7 @@ impl Builder<'_> {
         })
     }
 
-    /// The thickness of the wall of a tube of the radius `radius`; that of a beam is in its diameters.
+    /// The thickness of the wall of a tube of the radius `radius`; a beam has it in its diameters.
     fn wall_of(&self, owner: &Owner, support: &Section<'_>, radius: Option<f64>, is_beam: bool) -> Result<Option<f64>> {
         let (Some(wall), Some(at)) = (self.above_0(&owner.name, "wall", "m", support)?, support.span_of("wall")) else {
             return Ok(None);
