@@ -61,6 +61,13 @@ impl Builder<'_> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
         let mut walls = Vec::new();
         for support in self.written.supports.iter().filter(|support| support.wear.scar.is_some()) {
+            let of_beam = || self.model.beam(&support.place)?.section.wall_thickness();
+            let Some(wall) = support.wear.wall.or_else(of_beam) else {
+                let title = format!("`wear.limit` without the wall of the tube at support {:?}", support.name);
+                let help = "expected [system.beam] with outer_diameter and inner_diameter, or wall beside radius of \
+                            each [[support]]: the limit is a share of the wall thickness of a tube";
+                return Err(self.source.error(limit.span(), &title, help));
+            };
             let has = |own: Option<f64>, key: &str| own.is_some() || wear.span_of(key).is_some();
             let of_support = has(support.wear.support_coefficient, "support_coefficient");
             if of_support && !has(support.wear.coefficient, "coefficient") {
@@ -68,12 +75,6 @@ impl Builder<'_> {
                 let help = "expected coefficient, in 1/Pa: support_coefficient is that of the support alone";
                 return Err(self.source.error(limit.span(), &title, help));
             }
-            let of_beam = || self.model.beam(&support.place)?.section.wall_thickness();
-            let Some(wall) = support.wear.wall.or_else(of_beam) else {
-                let title = format!("`wear.limit` without the wall of the tube at support {:?}", support.name);
-                let help = "expected wall beside its radius, in m: the limit is a share of it";
-                return Err(self.source.error(limit.span(), &title, help));
-            };
             walls.push(wall);
         }
         if walls.windows(2).any(|pair| pair[0] != pair[1]) {

@@ -398,7 +398,9 @@ fn elastic_walls_are_met_and_left_at_grazes() {
     // A special point other than a fold leads on, or says why not.
     let silent = |s: &&Special| s.label != Label::Fold && s.leads_to.is_empty() == s.reason.is_none();
     assert_eq!(graph.specials.iter().find(silent).map(|s| (s.label, s.point.value)), None);
-    assert!(graph.specials.iter().flat_map(|s| &s.reason).any(|reason| reason.contains("more switches")));
+    assert!(
+        graph.specials.iter().flat_map(|s| &s.reason).any(|reason| reason.contains("switches from the first branch"))
+    );
     // A contact that vanishes is one special point, not a fold and a doubling besides.
     for (index, special) in graph.specials.iter().enumerate() {
         for other in &graph.specials[index + 1..] {

@@ -129,6 +129,22 @@ fn histories_are_those_of_their_windows_and_years_their_means() {
             let half = 3.182_446_305 * (square / 4.0).sqrt();
             let (stem, unit) = column.rsplit_once('_').unwrap();
             let told = number(year, &format!("{stem}_half_width_95_{unit}"));
+            if column == "depth_one_scar_m" {
+                // By the mean work, and by the half width of that: the depth in a hole grows like
+                // the work to the power of 2/3 where it is far less than the gap, and nearly like
+                // the work where it is far more.
+                let work: Vec<f64> = own.iter().map(|row| number(row, "work_J")).collect();
+                let mean_work = work.iter().sum::<f64>() / 4.0;
+                let power = values.iter().map(|depth| depth.powf(1.5)).sum::<f64>() / 4.0;
+                let depth = number(year, column);
+                let [least, most] = [mean * (1.0 - 1e-9), power.powf(2.0 / 3.0) * (1.0 + 1e-9)];
+                assert!((least..=most).contains(&depth), "{least} {depth} {most}");
+                let square = work.iter().map(|x| (x - mean_work) * (x - mean_work)).sum::<f64>() / 3.0;
+                let half = 3.182_446_305 * (square / 4.0).sqrt() / mean_work.max(f64::MIN_POSITIVE);
+                let told = if depth > 0.0 { told / (half * depth) } else { 1.0 };
+                assert!((0.66..=1.0).contains(&told), "{told} {half}");
+                continue;
+            }
             assert!((number(year, column) - mean).abs() <= 1e-12 * mean.abs());
             assert!((told - half).abs() <= 1e-8 * half + 1e-18, "{column}: {told} for {half}");
         }
@@ -351,7 +367,7 @@ fn a_flat_that_slides_steadily_recedes_as_its_volume_grows_evenly() {
     fs::write(dir.path().join("slider.toml"), SLIDER).unwrap();
     let (_, err) = said(dir.path(), &["wear", "slider.toml", "--out", "w"], 0);
     assert!(
-        err.contains("each flat recedes by its scar, of tube and flat together, and the gap is the least"),
+        err.contains("each flat recedes by its scar, of tube and flat or of both tubes together, and the gap is the"),
         "{err}"
     );
     // 10 N times the mean of |V sin|, 2V/π.

@@ -157,10 +157,8 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2], natural:
 /// Notes on the step and the scene that need no run.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step, true);
-    if matches!(choice.method.scheme, Scheme::MoreauJean { .. }) {
-        let walls = case.scene.walls.len() - case.sliders.len();
-        said.extend(notes::resting(&case.scene, walls, case.time.step));
-    }
+    let walls = case.scene.walls.len() - case.sliders.len();
+    said.extend(notes::resting(&case.scene, walls, case.time.step));
     said.extend(notes::late_output(&case.scene));
     said
 }

@@ -8,11 +8,14 @@ use std::f64::consts::TAU;
 const SLOW: f64 = 0.1;
 
 /// The warning before moreau-jean steps a scene whose load may hold the body on a rigid wall;
-/// `None` without such a wall. It names the schemes that rest on the face of the wall, of those
-/// that take the scene with steps of `step` seconds.
+/// `None` without such a wall, or where it refuses the scene. It names the schemes that rest on the
+/// face of the wall, of those that take the scene with steps of `step` seconds.
 pub(crate) fn resting(scene: &Scene, walls: usize, step: f64) -> Option<String> {
     let wall = scene.walls.iter().take(walls).find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
     let takes = |scheme: &Scheme| Stepper::takes(scene, scheme, step);
+    if !takes(&Scheme::MoreauJean { theta: 0.5 }) {
+        return None;
+    }
     let others = [Scheme::Event, Scheme::Located, Scheme::GeneralizedAlpha { rho: 1.0 }];
     let taken: Vec<&str> = others.iter().filter(|scheme| takes(scheme)).map(|scheme| scheme.entry().name).collect();
     let others = match taken.as_slice() {
