@@ -253,11 +253,6 @@ impl WallLaw {
     pub fn is_rigid(&self) -> bool {
         matches!(self, Self::Rigid { .. })
     }
-
-    /// True for a spring with a dashpot, whose force jumps where a contact begins.
-    pub(crate) fn jumps(&self) -> bool {
-        matches!(self, Self::Elastic { damping, .. } if *damping > 0.0)
-    }
 }
 
 /// The spring and dashpot of an elastic wall.

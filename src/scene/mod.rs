@@ -294,6 +294,12 @@ impl Scene {
         self.walls.iter().find(|wall| !wall.law.is_linear())
     }
 
+    /// The first wall whose force jumps where a contact begins, since it has a dashpot.
+    pub(crate) fn dashpot_wall(&self) -> Option<&Wall> {
+        let jumps = |wall: &&Wall| matches!(wall.law, WallLaw::Elastic { damping, .. } if damping > 0.0);
+        self.walls.iter().find(jumps)
+    }
+
     /// True for one degree of freedom whose walls stand on it directly: schemes on a grid then
     /// compute with numbers. A wall behind a lever makes the oscillator a structure of 1 × 1
     /// matrices.

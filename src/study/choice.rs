@@ -69,7 +69,7 @@ pub fn choose(scene: &Scene) -> Choice {
 
 /// True where no wall is rigid, and one has a dashpot.
 fn has_dashpots_alone(scene: &Scene) -> bool {
-    !scene.walls.iter().any(|wall| wall.law.is_rigid()) && scene.walls.iter().any(|wall| wall.law.jumps())
+    !scene.walls.iter().any(|wall| wall.law.is_rigid()) && scene.dashpot_wall().is_some()
 }
 
 /// The method for an error named beforehand, given the outcome of the exact scheme on `scene`: the

@@ -103,13 +103,14 @@ impl WearWork {
             near.iter().zip(&of_mean).map(|(near, depth)| (near - depth) / SLOPE).collect()
         };
         let departures: Vec<Vec<f64>> = works.iter().map(departure).collect();
-        // Their mean is 0 but for the curvature and rounding.
-        let centred = |(part, depth): (usize, &f64), own: &[f64]| {
+        // The mean of the departures is 0 but for the curvature and rounding.
+        let centre = |(part, depth): (usize, &f64)| {
             let all = departures.iter().filter_map(|departures| departures.get(part));
-            let mean = all.sum::<f64>() / works.len() as f64;
-            depth + own.get(part).map_or(0.0, |departure| departure - mean)
+            depth - all.sum::<f64>() / works.len() as f64
         };
-        departures.iter().map(|own| of_mean.iter().enumerate().map(|part| centred(part, own)).collect()).collect()
+        let centres: Vec<f64> = of_mean.iter().enumerate().map(centre).collect();
+        let about = |own: &Vec<f64>| centres.iter().zip(own).map(|(centre, departure)| centre + departure).collect();
+        departures.iter().map(about).collect()
     }
 }
 

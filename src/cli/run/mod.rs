@@ -93,7 +93,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 /// What the refinement by a scheme of order 1 means.
 fn first_order(method: &Method, scene: &Scene) -> Option<String> {
     let entry = method.scheme.entry();
-    let error = if scene.walls.iter().any(|wall| wall.law.jumps()) {
+    let error = if scene.dashpot_wall().is_some() {
         "at a wall with a dashpot its error depends on where its steps meet the wall, and half the step may change far \
          less; located divides its steps there"
     } else {

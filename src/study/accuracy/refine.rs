@@ -90,7 +90,7 @@ pub(super) fn refine(
 /// contact begins: half the step changes nothing where it leaves the first instant within the wall,
 /// whatever the error.
 fn check_halving(scene: &Scene, method: &Method) -> Result<()> {
-    let Some(wall) = scene.walls.iter().find(|wall| wall.law.jumps()) else { return Ok(()) };
+    let Some(wall) = scene.dashpot_wall() else { return Ok(()) };
     if method.scheme.entry().order != Some(1) {
         return Ok(());
     }

@@ -39,6 +39,11 @@ impl Accrual {
     }
 }
 
+/// The work of each history at support number `support`.
+pub(super) fn at_support(work: &Works, support: usize) -> Vec<WearWork> {
+    work.iter().filter_map(|history| history.get(support).cloned()).collect()
+}
+
 /// The straight way from the one to the other, at the share `share` of it.
 pub(super) fn towards(from: &Works, to: &Works, share: f64) -> Works {
     let history = |(from, to): (&Vec<WearWork>, &Vec<WearWork>)| {

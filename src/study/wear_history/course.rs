@@ -98,12 +98,10 @@ impl<'a> Course<'a> {
         let works = || accrued.iter().map(|(work, _)| work.clone()).collect::<Vec<_>>();
         let values: Vec<f64> = match self.quantity {
             WearQuantity::DepthDeepest if accrued.len() > 1 => {
-                let deepest = Deepest::of(&WearWork::about_mean(&works(), |work| self.support.depths(work)));
+                let deepest = Deepest::of(&self.support.depths_about_mean(&works()));
                 return Some((deepest.value, deepest.half_width_95));
             }
-            WearQuantity::DepthOneScar => {
-                WearWork::about_mean(&works(), |work| vec![self.support.depth_one_scar(work)]).concat()
-            }
+            WearQuantity::DepthOneScar => self.support.scars_about_mean(&works()),
             _ => {
                 let state = |(work, rate): &(WearWork, f64)| self.support.state(work, *rate);
                 accrued.iter().map(|accrued| self.quantity.of(&state(accrued))).collect()

@@ -1,7 +1,7 @@
 //! What histories of wear found.
 
 use super::super::realisations::{Deepest, mean_of};
-use super::accrual::{Accrual, Works};
+use super::accrual::{Accrual, Works, at_support};
 use super::state::{WearQuantity, WearState};
 use super::support::WearingSupport;
 use crate::residual::Finding;
@@ -49,15 +49,13 @@ impl WearPoint {
             };
             work.iter().zip(rates).map(history).collect()
         };
+        let at_each = || supports.iter().enumerate().map(|(index, one)| (one, at_support(&work.found, index)));
         Self {
             time_s,
             histories: states(&work.found, &rates.found),
             largest: states(&work.largest, &rates.largest).concat(),
-            depths_m: about_mean(supports, &work.found, |support, work| support.depths(work)),
-            scars_m: about_mean(supports, &work.found, |support, work| vec![support.depth_one_scar(work)])
-                .into_iter()
-                .map(|histories| histories.concat())
-                .collect(),
+            depths_m: at_each().map(|(support, works)| support.depths_about_mean(&works)).collect(),
+            scars_m: at_each().map(|(support, works)| support.scars_about_mean(&works)).collect(),
             work,
             rates,
         }
@@ -112,19 +110,6 @@ pub struct LimitReached {
     pub at_last_rate: Option<TimeOfLimit>,
     /// The time in service at which each history alone reaches it, s.
     pub histories: Vec<Option<f64>>,
-}
-
-/// At each support what `depths` makes of the work of each history, about their mean.
-fn about_mean(
-    supports: &[WearingSupport],
-    work: &Works,
-    depths: impl Fn(&WearingSupport, &WearWork) -> Vec<f64>,
-) -> Vec<Vec<Vec<f64>>> {
-    let at = |(index, support): (usize, &WearingSupport)| {
-        let own: Vec<WearWork> = work.iter().filter_map(|history| history.get(index).cloned()).collect();
-        WearWork::about_mean(&own, |work| depths(support, work))
-    };
-    supports.iter().enumerate().map(at).collect()
 }
 
 /// The depths that the work (J) of a history has worn off the tube at each support, m.

@@ -13,9 +13,9 @@
 //! work of each support by sectors and walls, by Heun's method (order 2): windows at the gaps of
 //! the start and at those of a step of Euler's method, of which the mean counts. A step makes no
 //! gap more than half as large again, and is halved where Heun's gap differs from Euler's by more
-//! than
-//! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
-//! of the windows: that of the histories, or of a single one by the intervals of its work rates.
+//! than 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the
+//! scatter of the windows: that of the histories, or of a single one by the intervals of its work
+//! rates.
 //!
 //! Histories end together: where the deepest depth over all of them is the wall of the tube, or its
 //! radius where the wall is not known, or with the service. That depth is the largest of the means
@@ -38,7 +38,7 @@ mod support;
 mod window;
 
 pub(crate) use accrual::Accrual;
-use accrual::{Works, towards};
+use accrual::{Works, at_support, towards};
 use course::reached_from;
 use histories::depths;
 pub use histories::{LimitReached, TimeOfLimit, WearHistories, WearPoint, WornThrough, mean};
@@ -142,9 +142,9 @@ impl WearPlan<'_> {
                 let corrected = advanced(&work, &rates.found, &then.found, step);
                 let widest = advanced(&work, &rates.largest, &then.largest, step);
                 if step <= shortest || self.agree(&ahead, &corrected, &widest) {
-                    let whole = self.intact(&work, (&rates.found, &then.found), step);
-                    let then = rates.towards(&then, whole / step);
-                    step = whole;
+                    let intact = self.intact(&work, (&rates.found, &then.found), step);
+                    let then = rates.towards(&then, intact / step);
+                    step = intact;
                     let after = advanced(&work, &rates.found, &then.found, step);
                     largest = advanced(&largest, &rates.largest, &then.largest, step);
                     self.add_step_error(&mut largest, [&work, &after], (&rates.found, &then.found), step);
@@ -164,8 +164,7 @@ impl WearPlan<'_> {
     fn worn_through(&self, time: f64, work: &Works) -> Option<WornThrough> {
         self.supports.iter().enumerate().find_map(|(index, support)| {
             let depth_m = support.end()?;
-            let own: Vec<WearWork> = work.iter().filter_map(|history| history.get(index).cloned()).collect();
-            let depth = Deepest::of(&WearWork::about_mean(&own, |work| support.depths(work))).value;
+            let depth = Deepest::of(&support.depths_about_mean(&at_support(work, index))).value;
             let is_through = depth.is_nan() || depth >= depth_m;
             let wall_m = support.wall;
             is_through.then(|| WornThrough { support: support.name.clone(), wall_m, depth_m, time_s: time })

@@ -79,13 +79,24 @@ impl WearingSupport {
         }
     }
 
+    /// The depths by the mean of the work of several histories, and about it those of each, as of
+    /// [`WearWork::about_mean`], m: in each sector, or at each flat.
+    pub(super) fn depths_about_mean(&self, works: &[WearWork]) -> Vec<Vec<f64>> {
+        WearWork::about_mean(works, |work| self.depths(work))
+    }
+
+    /// Likewise of one scar.
+    pub(super) fn scars_about_mean(&self, works: &[WearWork]) -> Vec<f64> {
+        WearWork::about_mean(works, |work| vec![self.depth_one_scar(work)]).concat()
+    }
+
     fn worn(&self, work: &WearWork) -> Worn {
         Archard { service: 1.0, ..self.law }.worn(work.total)
     }
 
     /// The depth if the work `work` (J) makes one scar, m; NaN where that would cut the tube in
     /// two.
-    pub(super) fn depth_one_scar(&self, work: &WearWork) -> f64 {
+    fn depth_one_scar(&self, work: &WearWork) -> f64 {
         let worn = self.worn(work);
         let wears = work.total > 0.0 && worn.volume_m3.is_some();
         if wears { worn.depth_one_scar_m.unwrap_or(f64::NAN) } else { 0.0 }
