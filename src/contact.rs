@@ -55,6 +55,8 @@ pub(crate) struct Episodes {
     floor: Vec<Floor>,
     /// The mass that each wall feels, kg.
     mass: Vec<f64>,
+    /// The dashpot of each wall where its spring does not push yet, N s/m.
+    dashpot: Vec<f64>,
     side: Vec<Side>,
     /// The sign of each wall's impulses.
     sign: Vec<f64>,
@@ -78,6 +80,7 @@ impl Episodes {
             round: scene.walls.iter().map(Wall::is_round).collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
+            dashpot: scene.walls.iter().map(|w| w.law.dashpot(0.0)).collect(),
             side: scene.walls.iter().map(|w| w.side()).collect(),
             sign: scene.walls.iter().map(|w| w.sign()).collect(),
             open: vec![None; walls],
@@ -147,14 +150,17 @@ impl Episodes {
     /// Closes the episode, if any, of a wall that does not push.
     fn part(&mut self, wall: usize) {
         if let Some(episode) = self.open.get_mut(wall).and_then(Option::take) {
-            let is_impact = self.is_impact(wall, &episode);
-            self.closed.push(episode.contact(wall, self.sign[wall], is_impact, true));
+            self.closed.push(self.contact(wall, &episode, true));
         }
     }
 
-    /// True if an episode at this wall is an impact, which has no finite force.
-    fn is_impact(&self, wall: usize, episode: &OpenEpisode) -> bool {
-        self.rigid[wall] && episode.steps <= self.impact_steps
+    /// The contact at `wall`, ended or still open.
+    fn contact(&self, wall: usize, episode: &OpenEpisode, ended: bool) -> Contact {
+        let is_impact = self.rigid[wall] && episode.steps <= self.impact_steps;
+        let contact = episode.contact(wall, self.sign[wall], is_impact, ended);
+        // A dashpot pushes with c·v at the first instant; the mean over the first step is less.
+        let at_once = self.dashpot[wall] * contact.approach_speed;
+        Contact { peak_force: contact.peak_force.map(|peak| peak.max(at_once)), ..contact }
     }
 
     /// As [`Self::part`], for an impulse that is rounding: rare, so kept out of the fast path.
@@ -293,7 +299,7 @@ impl Episodes {
     /// Episodes still open at the end of the run.
     pub(crate) fn still_open(&self) -> Vec<Contact> {
         let rows = self.open.iter().enumerate().filter_map(|(wall, open)| open.as_ref().map(|e| (wall, e)));
-        rows.map(|(wall, e)| e.contact(wall, self.sign[wall], self.is_impact(wall, e), false)).collect()
+        rows.map(|(wall, episode)| self.contact(wall, episode, false)).collect()
     }
 }
 
