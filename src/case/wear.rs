@@ -8,6 +8,8 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::statistics::WearStatistics;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
+#[cfg(feature = "cli")]
+use crate::wear::WearWork;
 use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
 use toml::Spanned;
 
@@ -137,16 +139,23 @@ impl Case {
         depths().unwrap_or_default()
     }
 
-    /// The same of several runs, about their mean work rates, as
-    /// [`WearWork::about_mean`](crate::wear::WearWork).
+    /// The same of several runs by their work `rates` (W), about the mean of these, as
+    /// [`WearWork::about_mean`].
     #[cfg(feature = "cli")]
-    pub(crate) fn depths_about_mean(&self, index: usize, wear: &[&WearStatistics]) -> Vec<Vec<f64>> {
+    pub(crate) fn depths_about_mean(&self, index: usize, rates: &[WearWork]) -> Vec<Vec<f64>> {
         let depths = || {
             let (law, growth) = (self.archard(index)?, self.written.supports.get(index)?.growth);
-            let works: Option<Vec<_>> = wear.iter().map(|wear| law.work_in_service(&wear.rates())).collect();
-            Some(crate::wear::WearWork::about_mean(&works?, |work| law.depths(growth, work)))
+            let works: Option<Vec<_>> = rates.iter().map(|rates| law.work_in_service(rates)).collect();
+            Some(WearWork::about_mean(&works?, |work| law.depths(growth, work)))
         };
         depths().unwrap_or_default()
+    }
+
+    /// Likewise of one scar, in lists of one; empty lists where there is no depth.
+    #[cfg(feature = "cli")]
+    pub(crate) fn scars_about_mean(&self, index: usize, rates: &[WearWork]) -> Vec<Vec<f64>> {
+        let Some(law) = self.archard(index) else { return Vec::new() };
+        WearWork::about_mean(rates, |rates| law.worn(rates.total).depth_one_scar_m.into_iter().collect())
     }
 
     /// The depth worn off the tube within the service at support number `index` where it is

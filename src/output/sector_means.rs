@@ -66,8 +66,8 @@ pub fn cells(case: &Case, study: &Realisations) -> (Vec<String>, Vec<Vec<String>
     let mut rows = Vec::new();
     for (index, support) in case.scene.supports.iter().enumerate() {
         let wear: Vec<_> = study.members.iter().filter_map(|member| member.wear.get(index)).collect();
-        let depths = means(&case.depths_about_mean(index, &wear));
         let rates: Vec<_> = wear.iter().map(|wear| wear.rates()).collect();
+        let depths = means(&case.depths_about_mean(index, &rates));
         let by_sector = means(&rates.iter().map(|rates| rates.sectors.clone()).collect::<Vec<_>>());
         let by_flat = means(&rates.iter().map(|rates| rates.walls.clone()).collect::<Vec<_>>());
         let of_flats = flats(case, support).count();

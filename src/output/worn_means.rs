@@ -33,11 +33,10 @@ fn means_at(case: &Case, index: usize, wear: &[&WearStatistics]) -> Option<[Mean
         let values: Option<Vec<f64>> = worn.iter().map(of).collect();
         values.filter(|values| !values.is_empty()).map(|values| mean_of(&values))
     };
-    let depths = case.depths_about_mean(index, wear);
-    let deepest = (!depths.is_empty()).then(|| Deepest::of(&depths)).filter(|found| !found.value.is_nan());
     let rates: Vec<WearWork> = wear.iter().map(|wear| wear.rates()).collect();
-    let scar = |rates: &WearWork| law.worn(rates.total).depth_one_scar_m.into_iter().collect();
-    let scars: Vec<f64> = WearWork::about_mean(&rates, scar).concat();
+    let depths = case.depths_about_mean(index, &rates);
+    let deepest = (!depths.is_empty()).then(|| Deepest::of(&depths)).filter(|found| !found.value.is_nan());
+    let scars = case.scars_about_mean(index, &rates).concat();
     Some([
         mean(|worn| worn.volume_m3),
         deepest.map(|found| (found.value, found.deviation, found.half_width_95)),

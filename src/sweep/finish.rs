@@ -5,6 +5,7 @@ use super::block::Block;
 use super::fold::Fold;
 use super::instability::Unstable;
 use super::plan::Plan;
+use super::scars::Scars;
 use super::status::Status;
 use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of, line_of, with_number};
 use crate::case::open_regular;
@@ -12,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
 use crate::output::journal::Journal;
 use crate::output::results::Results;
+use csv::StringRecord;
 use std::io::Write;
 use std::path::Path;
 
@@ -78,7 +80,7 @@ impl Tables {
         let mut reader = csv::Reader::from_reader(file);
         let columns = Columns::of(reader.headers().map_err(failed)?);
         let mut tables = Self::default();
-        let mut record = csv::StringRecord::new();
+        let mut record = StringRecord::new();
         while reader.read_record(&mut record).map_err(failed)? {
             columns.count(&record, &mut tables);
         }
@@ -93,12 +95,12 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub fn of(header: &csv::StringRecord) -> Self {
+    pub fn of(header: &StringRecord) -> Self {
         let find = |name: &str| header.iter().position(|column| column == name).unwrap_or(usize::MAX);
         Self { status: find("status"), error: find("error") }
     }
 
-    pub fn count(&self, record: &csv::StringRecord, tables: &mut Tables) {
+    pub fn count(&self, record: &StringRecord, tables: &mut Tables) {
         let cell = |index: usize| record.get(index).unwrap_or_default();
         tables.count(cell(0), cell(self.status), cell(self.error));
     }
@@ -108,8 +110,8 @@ impl Columns {
 struct Files {
     table: WholeFile,
     samples: Option<WholeFile>,
-    /// The table of the realisations, and how these become a row.
-    realisations: Option<(WholeFile, Fold)>,
+    /// The table of the realisations, how these become a row, and their depths.
+    realisations: Option<(WholeFile, Fold, Option<Scars>)>,
     /// The column of the attractors' numbers, and the attractors.
     attractors: Option<(usize, Attractors)>,
     columns: Columns,
@@ -127,23 +129,29 @@ impl Files {
         let samples = plan.sweep.samples.map(|_| create(SAMPLES, plan.sample_header())).transpose()?;
         let runs = plan.run_header.as_ref();
         let fold = |header| Fold::of(header, plan.until.clone());
-        let realisations = runs.map(|header| Ok((create(REALISATIONS, header)?, fold(header)))).transpose()?;
+        let realisations =
+            runs.map(|header| Ok((create(REALISATIONS, header)?, fold(header), Scars::of(plan)))).transpose()?;
         Ok(Self {
             table,
             samples,
             realisations,
             attractors: plan.attractor_column().map(|column| (column, Attractors::default())),
-            columns: Columns::of(&csv::StringRecord::from(plan.header().to_vec())),
+            columns: Columns::of(&StringRecord::from(plan.header().to_vec())),
             tables: Tables::default(),
         })
     }
 
-    /// Adds the row with these runs.
-    fn add(&mut self, runs: &[Block]) -> Result<()> {
+    /// Adds row number `row` of `plan`, with these runs.
+    fn add(&mut self, plan: &Plan, row: u64, runs: &[Block]) -> Result<()> {
         let line = match &mut self.realisations {
-            Some((file, fold)) => {
-                runs.iter().try_for_each(|run| put(file, &run.line))?;
-                line_of(&fold.row(&runs.iter().map(|run| cells_of(&run.line)).collect::<Vec<_>>()))
+            Some((file, fold, scars)) => {
+                let cells = |run: &Block| cells_of(&run.line).iter().map(str::to_owned).collect();
+                let mut lines: Vec<Vec<String>> = runs.iter().map(cells).collect();
+                if let Some(scars) = scars {
+                    scars.fill(&mut lines, (plan, row, runs))?;
+                }
+                lines.iter().try_for_each(|line| put(file, &line_of(line)))?;
+                line_of(&fold.row(&lines.into_iter().map(StringRecord::from).collect::<Vec<_>>()))
             }
             None => runs.iter().flat_map(|run| &run.line).copied().collect(),
         };
@@ -165,7 +173,7 @@ impl Files {
 
     /// Finishes the tables of `rows` rows.
     fn finish(self, results: &mut Results, rows: u64) -> Result<Tables> {
-        let realisations = self.realisations.map(|(file, _)| file);
+        let realisations = self.realisations.map(|(file, ..)| file);
         self.samples.into_iter().chain(realisations).try_for_each(WholeFile::finish)?;
         if let Some((_, attractors)) = self.attractors {
             attractors.write(&results.place(ATTRACTORS)?, rows)?;
@@ -196,7 +204,7 @@ pub(super) fn write_tables(
         let runs = (first..first + runs(row))
             .map(|place| Block::read(journal, place as usize)?.ok_or_else(|| missing(results.folder())))
             .collect::<Result<Vec<_>>>()?;
-        files.add(&runs)?;
+        files.add(plan, row, &runs)?;
     }
     files.finish(results, rows)
 }

@@ -78,9 +78,9 @@ impl Plan {
                 "rows_of_a_chain": self.chain_rows(),
             }),
         );
-        if sweep.keeps_depths() {
-            // Runs of a version that did not keep them lack a column.
-            request.insert("depths".to_owned(), json!(true));
+        if sweep.keeps_work_rates() {
+            // Runs of a version that kept depths in their place cannot go on.
+            request.insert("work_rates".to_owned(), json!(true));
         }
         if sweep.layout == Layout::OneAtATime {
             request.insert(ONE_AT_A_TIME.to_owned(), json!(true));

@@ -14,7 +14,7 @@
 //! | `forcing` | the period of the loads |
 //! | `plan`, `headers`, `check` | the rows, by number, the columns of the tables, and what is checked before a row runs |
 //! | `row`, `lacking`, `status` | one row: built, run, measured; why a measure has no value |
-//! | `realisations`, `fold` | rows with several realisations of their random loads, and the means over them |
+//! | `realisations`, `scars`, `fold` | rows with several realisations of their random loads, the depths by their mean work, and the means over them |
 //! | `until_interval`, `run_set`, `seeds` | how many that are, where intervals decide; which are run together |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
 //! | `basin`, `attractors` | rows that find the attractor to which their start leads, and the numbers of attractors |
@@ -82,6 +82,7 @@ mod run;
 mod run_set;
 mod runs;
 mod sample;
+mod scars;
 mod seeds;
 mod sensitivity;
 mod shard;

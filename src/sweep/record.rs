@@ -4,12 +4,13 @@ use super::basin::described;
 use super::plan::Plan;
 use super::row::Row;
 use super::sample::Sample;
+use super::scars::rates_cell;
 use super::table::line_of;
 use crate::output::csv::digits;
 
 impl Plan {
-    /// The line of `row` in `sweep.csv`, or of its realisation in `realisations.csv`, with the line
-    /// break.
+    /// The line of `row` in `sweep.csv`, or of its realisation in `realisations.csv` with work
+    /// rates in the place of depths, with the line break.
     pub(super) fn line(&self, row: &Row) -> Vec<u8> {
         let mut cells = numbers(row);
         cells.extend(row.direction.map(str::to_owned));
@@ -21,8 +22,7 @@ impl Plan {
         }));
         cells.extend([row.status.to_string(), flat(&row.error)]);
         cells.extend(row.measures.iter().map(|value| digits(*value)));
-        let list = |depths: &Vec<f64>| depths.iter().map(|depth| digits(Some(*depth))).collect::<Vec<_>>().join(" ");
-        cells.extend(row.depths.iter().map(list));
+        cells.extend(row.rates.iter().map(|rates| rates_cell(rates.as_ref())));
         line_of(&cells)
     }
 

@@ -265,10 +265,11 @@ impl Sweep {
         &self.title
     }
 
-    /// True if the depths of all parts of supports are kept of each run: the deepest is that of
-    /// their means over the realisations.
-    pub(super) fn keeps_depths(&self) -> bool {
-        self.realisations.is_some() && self.measures.contains(&Measure::DepthDeepest)
+    /// True if the work rates at supports are kept of each run: depths of a row are those of their
+    /// means over the realisations.
+    pub(super) fn keeps_work_rates(&self) -> bool {
+        let by_mean = [Measure::DepthDeepest, Measure::DepthOneScar];
+        self.realisations.is_some() && by_mean.iter().any(|depth| self.measures.contains(depth))
     }
 
     /// The number of the axis that is followed.

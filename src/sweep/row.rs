@@ -15,6 +15,7 @@ use crate::scene::{Checked, State};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::attractor::Attractor;
 use crate::time::TimeGrid;
+use crate::wear::WearWork;
 
 /// A row of a sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,9 +40,9 @@ pub struct Row {
     /// The measures, as in their columns; `None` for a measure without a value, and in a row that
     /// failed.
     pub measures: Vec<Option<f64>>,
-    /// The depths worn off the tube at each support in each sector, or at each flat, m: of a
-    /// realisation with the measure of the deepest, and empty where that has no value.
-    pub depths: Vec<Vec<f64>>,
+    /// Its work rates at each support, W, of a realisation whose depths follow from their mean over
+    /// all of the row; `None` where the support has no law of wear.
+    pub rates: Vec<Option<WearWork>>,
     /// Its instants.
     pub samples: Vec<Sample>,
     /// The attractor to which its start leads; `None` if the measure is not asked for, or it was
@@ -70,7 +71,7 @@ impl Row {
 /// The results of the run of one row.
 struct Done {
     measures: Vec<Option<f64>>,
-    depths: Vec<Vec<f64>>,
+    rates: Vec<Option<WearWork>>,
     samples: Vec<Sample>,
     end: State,
     handed: usize,
@@ -102,7 +103,7 @@ impl Plan {
         match self.build(point, start).and_then(|(case, method)| self.perform(case, method, judged)) {
             Ok(done) => {
                 (row.measures, row.samples, row.end) = (done.measures, done.samples, Some(done.end));
-                row.depths = done.depths;
+                row.rates = done.rates;
                 row.caution = done.caution;
                 let mut notes = done.notes;
                 if done.handed > 0 {
@@ -132,11 +133,7 @@ impl Plan {
             error: String::new(),
             caution: Caution::default(),
             measures: vec![None; self.measured()],
-            depths: if self.sweep.keeps_depths() {
-                vec![Vec::new(); self.base.scene.supports.len()]
-            } else {
-                Vec::new()
-            },
+            rates: if self.sweep.keeps_work_rates() { vec![None; self.base.scene.supports.len()] } else { Vec::new() },
             samples: Vec::new(),
             attractor: None,
             end: None,
@@ -207,7 +204,7 @@ impl Plan {
         let lacking = lacking::reasons(&self.sweep.measures, &observed.measures, &case);
         Ok(Done {
             measures: observed.measures,
-            depths: observed.depths,
+            rates: observed.rates,
             samples: observed.samples,
             end: stepper.state(),
             handed: stepper.handed().len(),

@@ -19,12 +19,13 @@ use crate::step::{Contact, Step};
 use crate::study::attractor::{self, MOST_FREEDOM};
 use crate::time::TimeOptions;
 use crate::variation::{Exponent, Exponents, NoDerivative};
+use crate::wear::WearWork;
 
 /// What a row has at its end.
 pub(super) struct Observed {
     pub measures: Vec<Option<f64>>,
-    /// The depths of all parts of each support, where they are kept.
-    pub depths: Vec<Vec<f64>>,
+    /// The work rates at each support, W, where they are kept and it has a law of wear.
+    pub rates: Vec<Option<WearWork>>,
     /// A warning of a depth that the tube does not have.
     pub through: Option<String>,
     /// That the window begins before the motion has settled.
@@ -108,7 +109,8 @@ impl RowObserver {
         self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
     }
 
-    /// The measures, depths and samples of the row of `case`, with the episodes `open` at its end.
+    /// The measures, work rates and samples of the row of `case`, with the episodes `open` at its
+    /// end.
     pub fn finish(mut self, sweep: &Sweep, case: &Case, scene: &Checked, open: &[Contact]) -> Observed {
         self.contacts.extend_from_slice(open);
         sort_by_number(&mut self.contacts, |contact| contact.wall as f64);
@@ -128,14 +130,13 @@ impl RowObserver {
             self.push_values(measure, sweep, case, scene, (&statistics, exponent), &mut values);
         }
         let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
-        let supports = statistics.wear.iter().enumerate().filter(|_| sweep.keeps_depths());
-        let sound = |index, wear| case.depth_deepest(index, wear).map(|_| case.depths(index, wear));
-        let depths = supports.map(|(index, wear)| sound(index, wear).unwrap_or_default()).collect();
+        let supports = statistics.wear.iter().enumerate().filter(|_| sweep.keeps_work_rates());
+        let rates = supports.map(|(index, wear)| case.archard(index).map(|_| wear.rates())).collect();
         let scars = statistics.wear.iter().enumerate().filter(|_| sweep.measures.iter().any(|one| one.needs_scar()));
         let worn = |(index, wear): (usize, &WearStatistics)| Some((index, case.archard(index)?.worn(wear.work_rate_w)));
         let through = scars.filter_map(worn).find_map(|(index, worn)| through::beyond(case, index, &worn));
         let unsettled = notes::unsettled(scene, &statistics);
-        Observed { measures: values, depths, through, unsettled, samples }
+        Observed { measures: values, rates, through, unsettled, samples }
     }
 
     fn began_here(&self) -> impl Iterator<Item = &Contact> {

@@ -2,6 +2,7 @@
 
 use crate::case::open_regular;
 use crate::error::{Error, Result};
+use crate::output::csv::digits;
 use serde_json::Value;
 use std::fs::File;
 use std::io::Take;
@@ -27,6 +28,11 @@ pub(super) const ONE_AT_A_TIME: &str = "one_at_a_time";
 
 /// What follows the name of a measure in the name of the column of the half width of its interval.
 pub(super) const HALF_WIDTH: &str = "_half_width_95";
+
+/// A cell of numbers with blanks between them.
+pub(super) fn list_of(numbers: &[f64]) -> String {
+    numbers.iter().map(|number| digits(Some(*number))).collect::<Vec<_>>().join(" ")
+}
 
 /// The numbers of a cell, with blanks between them; `None` of a cell without any.
 pub(super) fn numbers_of(cell: &str) -> Option<Vec<f64>> {
@@ -137,7 +143,7 @@ pub(super) fn cells_of(line: &[u8]) -> csv::StringRecord {
 
 /// `record` with the number `number` in a column, as a line.
 pub(super) fn with_number(record: &csv::StringRecord, column: usize, number: u64) -> Vec<u8> {
-    let number = crate::output::csv::digits(Some(number as f64));
+    let number = digits(Some(number as f64));
     let cell = |(at, cell): (usize, &str)| if at == column { number.clone() } else { cell.to_owned() };
     line_of(&record.iter().enumerate().map(cell).collect::<Vec<_>>())
 }
