@@ -14,8 +14,19 @@ const MOST_RATIO: f64 = 0.5;
 /// Young's moduli of solids, Pa: from rubber to beyond diamond.
 const YOUNGS_MODULI: [f64; 2] = [1e6, 2e12];
 
-/// Densities of solids, kg/m³: from foams to beyond osmium.
-const DENSITIES: [f64; 2] = [5.0, 3e4];
+/// Densities of solids, kg/m³: from light foams to beyond osmium. In g/cm³ those of structures are
+/// less.
+const DENSITIES: [f64; 2] = [25.0, 3e4];
+
+/// A solid of more than this density (kg/m³) is a metal or a ceramic.
+const DENSE: f64 = 4e3;
+
+/// Young's moduli of metals, Pa: that of lead, the softest in use, is 1.6e10.
+const LEAST_OF_METALS: f64 = 5e9;
+
+/// Shortest service that wear is predicted for, s: of a test rig. Years and weeks are smaller
+/// numbers.
+const LEAST_SERVICE: f64 = 1e3;
 
 /// Largest dimension of a section, m: that of large pipes and girders.
 const MOST_SECTION: f64 = 5.0;
@@ -26,7 +37,13 @@ const MOST_GAP: f64 = 2.0;
 impl Case {
     /// A note on each kind of value that lies outside of what is usual.
     pub(super) fn unusual_values(&self) -> Vec<String> {
-        let own = [self.unusual_wear(), self.unusual_ratio(), self.unusual_gap(), self.long_correlation()];
+        let own = [
+            self.unusual_wear(),
+            self.short_service(),
+            self.unusual_ratio(),
+            self.unusual_gap(),
+            self.long_correlation(),
+        ];
         self.beams().filter_map(unusual_beam).chain(own.into_iter().flatten()).collect()
     }
 
@@ -48,6 +65,12 @@ impl Case {
             "the wear coefficient {odd:e} 1/Pa lies outside of what is measured for metals, {least:e} to {most:e} \
              1/Pa: mind the unit (1/Pa = m²/N)"
         ))
+    }
+
+    /// A service that is more likely meant in years.
+    fn short_service(&self) -> Option<String> {
+        let service = self.wear.service.filter(|service| *service < LEAST_SERVICE)?;
+        Some(format!("a service of {service:?} s is {} minutes: mind the unit, s", amount(service / 60.0, 2)))
     }
 
     /// A damping ratio that is more likely meant in per cent.
@@ -93,7 +116,13 @@ fn unusual_beam(beam: &Beam) -> Option<String> {
     let odd = if outside(beam.youngs_modulus, YOUNGS_MODULI) {
         format!("a Young's modulus of {:e} Pa is none of a solid: mind the unit, Pa", beam.youngs_modulus)
     } else if outside(beam.density, DENSITIES) {
-        format!("a density of {:?} kg/m³ is none of a solid: mind the unit, kg/m³", beam.density)
+        format!("a density of {:?} kg/m³ is none of a structure: mind the unit, kg/m³", beam.density)
+    } else if beam.density > DENSE && beam.youngs_modulus < LEAST_OF_METALS {
+        format!(
+            "a Young's modulus of {:e} Pa is that of no metal, which a density of {:?} kg/m³ is: mind the units, Pa \
+             and kg/m³",
+            beam.youngs_modulus, beam.density
+        )
     } else if section > MOST_SECTION {
         format!("a beam {section:?} m wide and {:?} m long: mind the unit, m", beam.length)
     } else if section > beam.length {

@@ -289,7 +289,7 @@ fn a_material_gives_the_coefficients_of_the_supports_that_name_it() {
 
 #[test]
 fn a_wear_coefficient_in_other_units_gets_a_note() {
-    let wear = |k: &str| RIGHT.replacen("[time]", &format!("[wear]\ncoefficient = {k}\nservice = 1.0\n\n[time]"), 1);
+    let wear = |k: &str| RIGHT.replacen("[time]", &format!("[wear]\ncoefficient = {k}\nservice = 1e8\n\n[time]"), 1);
     let notes = |k: &str| Case::parse(&wear(k), "right.toml", "").unwrap_or_else(|error| panic!("{error}")).notes();
     assert!(notes("1e-14").iter().all(|note| !note.contains("1/Pa")));
     assert!(notes("1e-8").iter().any(|note| note.contains("mind the unit")));

@@ -375,9 +375,12 @@ fn values_of_a_beam_in_other_units_have_a_note() {
         ("outer_diameter = 19.05e-3", "outer_diameter = 19.05"),
         ("inner_diameter = 15.75e-3", "inner_diameter = 15.75"),
     ];
-    let one: [(&[(&str, &str)], &str); 6] = [
+    let one: [(&[(&str, &str)], &str); 9] = [
         (&[("youngs_modulus = 200e9", "youngs_modulus = 200e3")], "a Young's modulus of 2e5 Pa is none of a solid"),
-        (&[("density = 7850.0 ", "density = 7.85e-9 ")], "a density of 7.85e-9 kg/m³ is none of a solid"),
+        (&[("density = 7850.0 ", "density = 7.85e-9 ")], "a density of 7.85e-9 kg/m³ is none of a structure"),
+        (&[("density = 7850.0 ", "density = 7.85 ")], "a density of 7.85 kg/m³ is none of a structure"),
+        (&[("youngs_modulus = 200e9", "youngs_modulus = 195e6")], "a Young's modulus of 1.95e8 Pa is that of no metal"),
+        (&[("service = 1.262304e9 ", "service = 40.0 ")], "a service of 40.0 s is 0.67 minutes"),
         (&millimetres, "a beam 19.05 m wide and 3.0 m long"),
         (&millimetres[..1], "a beam 19.05 m wide and 3.0 m long"),
         (&[("gap = 0.2e-3", "gap = 0.2")], "the wall \"plate-1\" stands 0.2 m"),
