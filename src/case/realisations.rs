@@ -1,12 +1,11 @@
 //! Realisations of a case, as a study runs them.
 
-use super::Case;
+use super::{Case, Truncated};
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene, Wall, forcing_period};
 use crate::scheme::Method;
 use crate::study::accuracy::{MOST_STEPS, most_steps};
 use crate::study::realisations::{RandomScenes, RealisationCount, StepSearch};
-use crate::study::truncation::more_modes;
 
 /// What several realisations need.
 pub(crate) const RANDOM: &str =
@@ -26,8 +25,10 @@ impl RandomScenes for Case {
     }
 
     fn modes(&self) -> Option<[usize; 2]> {
-        let reduction = &self.truncated.as_ref()?.reduction;
-        Some([reduction.modes.count(), more_modes(reduction)?])
+        let Truncated { whole, reduction } = self.truncated.as_ref()?;
+        // What refuses more modes is said by the runs with them.
+        let more = whole.more_modes(reduction).unwrap_or(Some(2 * reduction.modes.count()));
+        Some([reduction.modes.count(), more?])
     }
 
     fn with_modes(&self, number: u64, modes: usize) -> Result<Scene> {

@@ -8,7 +8,7 @@ use super::values;
 use crate::case::{Case, CaseFile, Key, KeyValue};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
-use crate::scene::System;
+use crate::scene::{System, forcing_period};
 use crate::scheme::{Integrator, Method, Scheme};
 use crate::study::choice;
 
@@ -21,8 +21,14 @@ pub struct Request {
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<f64>,
     /// End of the run, s; a window for statistics that begins later begins at 0 then
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "keep")]
     pub end: Option<f64>,
+    /// Forcing periods before the window of the statistics
+    #[arg(long, value_name = "N", requires = "keep")]
+    pub settle: Option<u32>,
+    /// Forcing periods in that window, in place of the case's end and statistics_from
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub keep: Option<u32>,
     /// Spacing of the recorded rows, s
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub sample: Option<f64>,
@@ -63,6 +69,9 @@ impl Request {
         let mut file = self.case.file(ui)?;
         if let Some(end) = self.end {
             set_end(&mut file, end, ui)?;
+        }
+        if let Some(keep) = self.keep {
+            set_periods(&mut file, self.settle.unwrap_or(0), keep, ui)?;
         }
         let integrator = self.integrator.map(|integrator| KeyValue::from(integrator.name()));
         let values = [
@@ -222,6 +231,14 @@ pub(super) fn set_end(file: &mut CaseFile, end: f64, ui: &Ui) -> Result<()> {
         }
     }
     file.set(&"time.end".parse()?, &end.into())
+}
+
+/// Sets the window of the statistics to so many forcing periods of the case, after so many before
+/// it: what a row of a sweep over periods has.
+fn set_periods(file: &mut CaseFile, settle: u32, keep: u32, ui: &Ui) -> Result<()> {
+    let period = forcing_period(&file.case()?.scene)?;
+    file.set(&"time.statistics_from".parse()?, &(f64::from(settle) * period).into())?;
+    set_end(file, (f64::from(settle) + f64::from(keep)) * period, ui)
 }
 
 /// An option that sets something of a scheme.

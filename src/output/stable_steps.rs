@@ -133,10 +133,11 @@ impl StableStep {
         matches!(self.scheme, Scheme::Penalty { .. })
     }
 
-    /// The step to two digits; where all steps of the grid are stable, the largest of them.
+    /// The step to two digits, and no more than it is; where all steps of the grid are stable, the
+    /// largest of them.
     fn step_text(&self) -> String {
         let least = if self.beyond.is_none() { "at least " } else { "" };
-        self.step.map_or_else(|| "none".to_owned(), |h| format!("{least}{}", time(h)))
+        self.step.map_or_else(|| "none".to_owned(), |h| format!("{least}{}", time(rounded_down(h))))
     }
 
     fn line(&self) -> Vec<String> {
@@ -172,9 +173,16 @@ impl StableStep {
     }
 }
 
+/// A step (s) to two digits, no more than it is: a longer one was not tried, or is not stable.
+fn rounded_down(step: f64) -> f64 {
+    let unit = 10f64.powf(step.log10().floor() - 1.0);
+    // A step of two digits is a little less than as many units by rounding.
+    (step / unit + 1e-9).floor() * unit
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{StableStep, conclusion};
+    use super::{StableStep, conclusion, rounded_down};
     use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 
     fn one(scheme: Scheme, label: &str, step: Option<f64>, class: Option<&'static str>) -> StableStep {
@@ -183,12 +191,19 @@ mod tests {
     }
 
     #[test]
+    fn a_step_is_not_told_longer_than_it_is() {
+        for (step, told) in [(0.18638, 0.18), (0.05, 0.05), (2e-5, 2e-5), (9.99e-4, 9.9e-4), (1.0, 1.0)] {
+            assert!((rounded_down(step) / told - 1.0).abs() < 1e-12, "{step}");
+        }
+    }
+
+    #[test]
     fn the_conclusion_names_steps_and_schemes_without_any() {
         let law = PenaltyLaw::Quartic { epsilon: 1e-9 };
         let springs = Scheme::Penalty { law, integrator: Integrator::Trapezoidal };
         let steps = [
-            one(Scheme::Located, "located", Some(0.0721), Some("another-motion")),
-            one(Scheme::GeneralizedAlpha { rho: 0.8 }, "generalized-alpha", Some(0.0719), Some("another-motion")),
+            one(Scheme::Located, "located", Some(0.0729), Some("another-motion")),
+            one(Scheme::GeneralizedAlpha { rho: 0.8 }, "generalized-alpha", Some(0.0721), Some("another-motion")),
             one(springs, "a", Some(0.05), Some("diverged")),
             one(Scheme::PaoliSchatzman, "paoli-schatzman", Some(0.01), None),
             one(springs, "b", Some(2e-5), Some("diverged")),

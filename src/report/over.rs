@@ -122,6 +122,12 @@ fn sweep(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
         let reason = "a sweep is drawn over another where both have one key".to_owned();
         return Err(Error::io(other.path.display(), reason, true));
     };
+    let theirs = &other.manifest["request"];
+    let one = theirs["vary"].as_array().is_some_and(|axes| axes.len() == 1);
+    if !one || !theirs["random"].is_null() {
+        let reason = "varies several keys, or draws values at random: a sweep over one key has curves to draw beneath";
+        return Err(Error::io(other.path.display(), reason, true));
+    }
     let table = other.cells(TABLE)?;
     table.column(axis["column"].as_str().unwrap_or_default())?;
     let samples = if other.has(SAMPLES) { Some(other.cells(SAMPLES)?) } else { None };

@@ -102,6 +102,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "walls": names(&request["wall_names"]),
             "supports": names(&request["support_names"]),
             "scheme": request["methods"][0],
+            "window": request["run"],
             "kept": kept(folder.path, &table),
             "seeds": seeds.map(in_words),
             "seeds_asked": seeds.map(seeds_asked),

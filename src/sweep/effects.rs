@@ -49,6 +49,21 @@ impl Effect {
         self.effect.is_some_and(|effect| self.half_width_95.is_none_or(|half| effect.abs() > half))
     }
 
+    /// The length of its bar, from the least to the largest of the measure in the case and at both
+    /// bounds; −1 where none is known.
+    fn span(&self) -> f64 {
+        let known = || self.at.into_iter().chain([self.base]).flatten();
+        let ends = known().reduce(f64::min).zip(known().reduce(f64::max));
+        ends.map_or(-1.0, |(least, most)| most - least)
+    }
+
+    /// True if the measure lies on one side of that of the case at both bounds, where the effect,
+    /// its difference between them, says little.
+    pub fn turns_between(&self) -> bool {
+        let [low, high] = self.at.map(|at| at.zip(self.base).map_or(0.0, |(at, base)| at - base));
+        low * high > 0.0
+    }
+
     /// Its line of `effects.csv`.
     pub(super) fn cells(&self) -> Vec<String> {
         let unit = self.measure.parse::<Measure>().ok().and_then(Measure::unit).unwrap_or_default();
@@ -61,7 +76,7 @@ impl Effect {
 }
 
 /// The effects of the keys of `source`, a sweep that varies them one at a time: by measure and
-/// place, the largest first.
+/// place, the widest bar first.
 ///
 /// # Errors
 /// [`Error::Io`](crate::Error::Io) for a table that cannot be read.
@@ -93,8 +108,7 @@ pub(super) fn effects(source: &Source<'_>) -> Result<Vec<Effect>> {
             }
         };
         let mut effects: Vec<Effect> = bounds.iter().enumerate().map(of_axis).collect();
-        let size = |effect: &Effect| effect.effect.map_or(-1.0, f64::abs);
-        sort_by_number(&mut effects, |a| -size(a));
+        sort_by_number(&mut effects, |a| -a.span());
         all.extend(effects);
     }
     Ok(all)

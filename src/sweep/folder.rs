@@ -27,6 +27,9 @@ use std::path::Path;
 /// The tables of a sweep, each of which may be absent but the first.
 const TABLE_NAMES: [&str; 4] = [TABLE, SAMPLES, ATTRACTORS, REALISATIONS];
 
+/// The entry of the manifest with what a reader of the results must know.
+const NOTES: &str = "remarks";
+
 /// The contents of a folder.
 #[derive(Debug)]
 pub(super) enum State {
@@ -34,8 +37,8 @@ pub(super) enum State {
     Empty,
     /// Some of its rows, in the journal.
     Begun,
-    /// All of its rows, in tables, which are as they were written.
-    Finished { tables: Tables, records: Vec<(String, Record)> },
+    /// All of its rows, in tables, which are as they were written, and what their reader must know.
+    Finished { tables: Tables, records: Vec<(String, Record)>, notes: Vec<String> },
     /// Tables that are no longer as they were written, and which.
     Damaged(String),
 }
@@ -161,7 +164,7 @@ pub(super) fn state(folder: &Path, rows: u64) -> State {
     if count != rows {
         return State::Damaged(format!("{}: has {count} of {rows} rows", path.display()));
     }
-    State::Finished { tables, records }
+    State::Finished { tables, records, notes: Study::read(&manifest).notes }
 }
 
 /// The tables in `folder` with what `manifest` records of each, which it still has; empty for a
@@ -201,7 +204,7 @@ impl Study {
     pub fn read(manifest: &Value) -> Self {
         let text = |key: &str| manifest[key].as_str().unwrap_or_default().to_owned();
         let picture = Picture::from_document(&manifest["picture"]);
-        let notes = manifest["remarks"].as_array().into_iter().flatten();
+        let notes = manifest[NOTES].as_array().into_iter().flatten();
         let notes = notes.filter_map(Value::as_str).map(str::to_owned).collect();
         Self { case_text: text("case_text"), title: text("title"), picture, notes }
     }
@@ -215,10 +218,15 @@ pub(super) fn record_request(results: &mut Results, study: &Study, shard: Shard)
         ("case_text", json!(study.case_text)),
         ("title", json!(study.title)),
         ("picture", study.picture.document()),
-        ("remarks", json!(study.notes)),
+        (NOTES, json!(study.notes)),
     ] {
         results.add_to_manifest(key, value);
     }
+}
+
+/// Records what a reader of the results must know, of the case and of its runs.
+pub(super) fn record_notes(results: &mut Results, notes: &[String]) {
+    results.add_to_manifest(NOTES, json!(notes));
 }
 
 /// The request of a shard: that of the whole sweep, and the number of the shard.

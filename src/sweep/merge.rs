@@ -141,11 +141,18 @@ pub(crate) fn merge_in(folders: &[PathBuf], out: &Path, force: bool, formats: Fo
         }
     }
     let mut results = Results::open(out, request.clone(), force, formats)?;
-    folder::record_request(&mut results, &first.study, Shard::WHOLE);
+    let mut study = first.study.clone();
+    // Of each shard's runs, where they are not of the case.
+    for note in parts.iter().flat_map(|part| &part.study.notes) {
+        if !study.notes.contains(note) {
+            study.notes.push(note.clone());
+        }
+    }
+    folder::record_request(&mut results, &study, Shard::WHOLE);
     let tables = tables(&parts, &mut results, (rows, length), &names)?;
     results.finish()?;
     let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);
-    let Study { title, picture, .. } = first.study.clone();
+    let Study { title, picture, .. } = study;
     let shards = parts.len();
     Ok((Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified }, results))
 }

@@ -138,7 +138,8 @@ impl Plan {
         let mut damaged = None;
         let anew = matches!(state, State::Empty);
         match state {
-            State::Finished { tables, records } => {
+            State::Finished { tables, records, notes } => {
+                folder::record_notes(&mut results, &notes);
                 // What an interruption after the last row has left.
                 let _ = std::fs::remove_file(folder.join(JOURNAL));
                 let runs =
@@ -165,6 +166,8 @@ impl Plan {
             let rate = if new > 0 { new as f64 / started.elapsed().as_secs_f64() } else { 0.0 };
             progress(Progress { done, runs, rate });
         })?;
+        let notes: Vec<String> = self.notes().into_iter().chain(cautioned.sentences()).collect();
+        folder::record_notes(&mut results, &notes);
         let count = |row: u64| counts.as_ref().and_then(|counts| counts.get(row as usize)).copied();
         let count = |row: u64| count(row).unwrap_or(self.runs_of_row());
         let tables = write_tables(self, &mut results, &mut journal, (rows, &count))?;

@@ -10,7 +10,7 @@ use crate::sweep::{Effect, in_words};
 /// Most lines of the table.
 const MOST_LINES: usize = 40;
 
-/// Shows the effects, by measure and place, the largest first.
+/// Shows the effects, by measure and place, the widest bar first.
 pub(super) fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<RealisationCount>) {
     let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| amount(x, 5));
     let row = |one: &Effect| {
@@ -38,4 +38,12 @@ pub(super) fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Optio
         None => "effect: the measure at the upper bound less that at the lower one, the other keys as in the case"
             .to_owned(),
     }]);
+    if let Some(one) = effects.iter().find(|one| one.turns_between()) {
+        answer.messages([format!(
+            "note: {} lies on one side of its value in the case at both bounds of {}: it has a largest or least value \
+             between them, and the effect says little; the keys stand in the order of their bars in the picture, from \
+             the least to the largest value",
+            one.column, one.key
+        )]);
+    }
 }

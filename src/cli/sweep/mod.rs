@@ -168,7 +168,7 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
         "command_line": command_line(),
         "status": status_document(&finished.tables),
         "first_error": finished.tables.first_error,
-        "notes": ([plan.notes(), finished.tables.instabilities()].concat()),
+        "notes": ([plan.notes(), finished.tables.instabilities(), finished.cautioned.sentences().collect()].concat()),
         "threads": finished.threads,
         "wall_clock_s": finished.seconds,
         "request": plan.request(),

@@ -1,6 +1,6 @@
 //! Chooses the number of modes.
 
-use super::{Truncation, Unreduced};
+use super::{Truncation, Unreduced, reaches_all_walls};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::Reduction;
@@ -17,8 +17,8 @@ pub const MOST_CHOSEN: usize = 200;
 /// for an increase by half, is still to come; and an increase may change little by chance.
 const QUIET: f64 = 0.25;
 
-/// Number of successive increases that must change less than that: an increase that changes nothing
-/// may have added modes with a node at the walls.
+/// Number of successive increases that must change less than that, not counted those whose modes
+/// do not move all walls: with these nothing can change.
 const QUIET_INCREASES: usize = 2;
 
 /// After this many successive increases that each changed more than [`IDLE`], and more than half as
@@ -48,8 +48,8 @@ pub struct ChosenModes {
     pub modes: usize,
     /// Degrees of freedom of the whole structure, hence its number of modes.
     pub degrees_of_freedom: usize,
-    /// True if the tolerance is kept: two successive increases changed less than a quarter of it,
-    /// or no mode is left out.
+    /// True if the tolerance is kept: two successive increases by modes that move all walls changed
+    /// less than a quarter of it, or no mode is left out.
     pub kept: bool,
     /// What was tried, in order.
     pub levels: Vec<ModesLevel>,
@@ -70,8 +70,8 @@ impl ChosenModes {
     }
 }
 
-/// Increases the number of modes by half, from `start` on, until two successive increases change no
-/// wall's impulse and peak by more than a quarter of `tolerance`; runs are by `method` with the
+/// Increases the number of modes by half, from `start` on, until two successive increases, by modes
+/// that move all walls, change no wall's impulse and peak by more than a quarter of `tolerance`; runs are by `method` with the
 /// step and window of `time`. Where the changes do not decrease, it gives up and keeps `start`, the
 /// cheapest number, since no other number tried is known to be more accurate. `progress` is called
 /// with the time (s) that the current run has reached.
@@ -93,6 +93,8 @@ pub fn choose_modes(
         Ok((cut, run))
     };
     let mut last = make(start)?;
+    // The modes that were the last to move all walls.
+    let mut told = last.0.clone();
     let n = last.0.degrees_of_freedom;
     let most = if n <= MOST_CHOSEN { n } else { MOST_CHOSEN.max(start) };
     let mut levels = vec![ModesLevel { modes: start, change: None, quantity: None }];
@@ -102,7 +104,14 @@ pub fn choose_modes(
         let next = make(modes)?;
         let truncation = Truncation::between(whole, [&last.0, &next.0], [&last.1, &next.1]);
         let (change, quantity) = truncation.worst();
-        quiet = if change <= QUIET * tolerance { quiet + 1 } else { 0 };
+        let tells = reaches_all_walls(&told, &next.0);
+        quiet = match change <= QUIET * tolerance {
+            true => quiet + usize::from(tells),
+            false => 0,
+        };
+        if tells {
+            told = next.0.clone();
+        }
         levels.push(ModesLevel { modes, change: Some(change), quantity: Some(quantity) });
         last = next;
         let changes: Vec<f64> = levels.iter().filter_map(|l| l.change).collect();

@@ -23,6 +23,9 @@ use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
 
+/// A wall that feels a mass smaller by more than this share, with more modes, is moved by them.
+const LIGHTER: f64 = 0.01;
+
 /// A scene before it is reduced to modes, and how it is reduced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unreduced {
@@ -81,6 +84,36 @@ impl Unreduced {
         }
         reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
         Ok(reduction)
+    }
+
+    /// The reduction with which `reduction` is checked: twice its modes, or four times, eight times
+    /// and so on where these do not move every wall; all modes at most. `None` where it has all.
+    ///
+    /// # Errors
+    /// As [`Unreduced::cut`].
+    fn check_of(&self, reduction: &Reduction, cut: impl Fn(usize) -> Result<Reduction>) -> Result<Option<Reduction>> {
+        let (mut modes, all) = (reduction.modes.count(), reduction.degrees_of_freedom);
+        if modes >= all {
+            return Ok(None);
+        }
+        let most = if all <= MOST_DENSE { all } else { (MOST_MODES - 1) / self.planes * self.planes };
+        loop {
+            modes = (2 * modes).min(all);
+            let more = cut(modes)?;
+            if 2 * modes > most || reaches_all_walls(reduction, &more) {
+                return Ok(Some(more));
+            }
+        }
+    }
+
+    /// The number of modes of the reduction with which `reduction` is checked, see
+    /// [`Truncation::of`]; `None` where it has all.
+    ///
+    /// # Errors
+    /// As [`Unreduced::cut`].
+    pub fn more_modes(&self, reduction: &Reduction) -> Result<Option<usize>> {
+        let cut = |modes| self.scene.reduced_without_start(modes, self.static_correction);
+        Ok(self.check_of(reduction, cut)?.map(|more| more.modes.count()))
     }
 
     /// Refuses more `modes` in all planes, with the number of one plane, than are computed of a
@@ -167,12 +200,13 @@ impl Felt {
     }
 }
 
-/// The modes with which `reduction` is checked, twice its own or all there are; `None` where it has
-/// all.
-#[must_use]
-pub fn more_modes(reduction: &Reduction) -> Option<usize> {
-    let (modes, all) = (reduction.modes.count(), reduction.degrees_of_freedom);
-    (modes < all).then(|| (2 * modes).min(all))
+/// True if `more` modes than those of `cut` can show what leaving them out changes at every wall
+/// and round support: each of them feels a smaller mass with them, or feels nearly that of the whole
+/// structure already. Modes with a node there, or of another body, change nothing and tell nothing.
+fn reaches_all_walls(cut: &Reduction, more: &Reduction) -> bool {
+    cut.walls.iter().zip(&more.walls).all(|(own, more)| {
+        own.mass_kept > (1.0 + LIGHTER) * more.mass_kept || own.mass_kept <= (1.0 + LIGHTER) * own.mass
+    })
 }
 
 /// The effect of more modes on a run.
@@ -200,8 +234,8 @@ pub struct Truncation {
 
 impl Truncation {
     /// Compares `run` of the `reduction`, made by `method` with the options `time`, with the run of
-    /// twice its modes, or of all of them. `None` if it has all. `progress` is called with the time
-    /// (s) that the other run has reached.
+    /// twice its modes, or of all of them; where these do not move every wall, of more. `None` if it
+    /// has all. `progress` is called with the time (s) that the other run has reached.
     ///
     /// # Errors
     /// Errors of the other reduction or run.
@@ -213,8 +247,7 @@ impl Truncation {
         time: &TimeOptions,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Option<Self>> {
-        let Some(modes) = more_modes(reduction) else { return Ok(None) };
-        let more = whole.cut(modes)?;
+        let Some(more) = whole.check_of(reduction, |modes| whole.cut(modes))? else { return Ok(None) };
         // The same rows for any scheme.
         let rows = TimeOptions { sample: Some(run.grid.row_spacing()), ..*time };
         let options = Options::new(rows);

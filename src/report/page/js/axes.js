@@ -12,12 +12,12 @@ function linearTicks(lo, hi, room) {
   while (i > 0 && count(steps[i]) < 2) i--;
   const step = steps[Math.max(i, 0)];
   const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  const ticks = [];
-  for (let k = first(step), n = Math.min(count(step), 100); n > 0; k++, n--) {
-    const x = Math.abs(k * step) < 1e-6 * step ? 0 : k * step;
-    ticks.push([x, places > 5 || Math.abs(x) >= 1e6 ? digits(x, 4) : minus(x.toFixed(places))]);
-  }
-  return ticks;
+  const values = [];
+  for (let k = first(step), n = Math.min(count(step), 100); n > 0; k++, n--)
+    values.push(Math.abs(k * step) < 1e-6 * step ? 0 : k * step);
+  const long = places > 5 || values.some((x) => Math.abs(x) >= 1e6);
+  const apart = long && digitsApart(values.map((x) => +x.toPrecision(12)));
+  return values.map((x) => [x, long ? digits(+x.toPrecision(12), apart) : minus(x.toFixed(places))]);
 }
 
 /** Ticks of a logarithmic axis: [value, text]; decades, and 2 and 5 within where there are few. */

@@ -1,8 +1,14 @@
 // The effects of keys that a sweep varies one at a time: a tornado diagram of each measure, a table.
 
 /** True for an effect that its interval distinguishes from none, or that has no interval. */
-const isSeen = (columns, i) =>
-  !(Math.abs(columns.effect[i]) <= (columns.half_width_95 || [])[i]);
+const isSeen = (columns, i) => {
+  const half = (columns.half_width_95 || [])[i];
+  return !(typeof half === "number" && Math.abs(columns.effect[i]) <= half);
+};
+
+/** True if the measure lies on one side of that of the case at both bounds. */
+const turnsBetween = (columns, i) =>
+  (columns.at_low[i] - columns.base[i]) * (columns.at_high[i] - columns.base[i]) > 0;
 
 /** The looks of a measure at the lower and at the upper bound of a key, as in the figure. */
 const BOUND_LOOKS = [3, 2];
@@ -84,7 +90,7 @@ function effectDiagrams(effects) {
       "div",
       { class: "bar" },
       words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
-      hollow ? el("span", {}, "hollow: not distinguished from none") : null,
+      hollow ? el("span", {}, "hollow: the effect is not distinguished from none") : null,
     ),
     ...linesByMeasure(effects).map(([name, lines]) => effectBars(columns, lines, name)),
   ];
@@ -118,7 +124,10 @@ function effectsSection(effects, seeds) {
   section(
     "effects",
     "Effects",
-    "Each key by itself, from the case: the measure at the upper bound less that at the lower one, the largest first." +
+    "Each key by itself, from the case, the widest bar first. An effect is the measure at the upper bound less that at the lower one" +
+      (rows.some((i) => turnsBetween(columns, i))
+        ? "; where both lie on one side of the case, the measure turns between them, and its bar says more."
+        : ".") +
       (seeds
         ? ` Means over ${seeds}, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
         : ""),

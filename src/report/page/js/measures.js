@@ -47,6 +47,12 @@ function firstView(columns, axis, measures, over = null) {
   return view;
 }
 
+/** The stretch that is shown of an axis, of its whole range: "1 to 4.5 of 1 to 10 Hz". */
+function partInWords(view, axis) {
+  const range = (ends) => ends.map((x) => digits(x, 3)).join(" to ");
+  return `${range([view.lo, view.hi])} of ${range(view.full)}${nameAndUnit(axis)[1]}`;
+}
+
 /** The words with which all these names begin: of measures at several places what is measured. */
 function sharedWords(names) {
   const all = names.map((name) => name.split(" "));
@@ -87,10 +93,11 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       hidden: () => !item.shown,
     };
   };
-  /** The same measure of the other sweep: thin and pale, in its colour. */
-  const paleCurve = (item) => {
+  /** The same measure of the other sweep: thin and pale, in its colour; up and down by themselves. */
+  const theirs = over && bothDirections(over.columns.direction) ? ["up", "down"] : [undefined];
+  const paleCurve = (item, direction) => {
     const [x, y] = [over.columns[axis], over.columns[item.name]];
-    const along = orderOf(x);
+    const along = orderOf(x).filter((i) => !direction || over.columns.direction[i] === direction);
     const look = { ...item.look, dash: [], width: 3, behind: true };
     const series = { kind: "line", look, alpha: 0.4, hidden: () => !item.shown };
     return { ...series, x: along.map((i) => x[i]), y: along.map((i) => y[i]) };
@@ -111,7 +118,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       view,
       log: [view.log, false],
       marks: marks(unit),
-      series: [...shared.map(paleCurve), ...bands, ...series],
+      series: [...shared.flatMap((item) => theirs.map((one) => paleCurve(item, one))), ...bands, ...series],
     });
     const points = () =>
       series
@@ -134,7 +141,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       el(
         "span",
         { class: "right help" },
-        view.part ? firstShown(view, "where curves bend") : null,
+        view.part ? firstShown(view, `${partInWords(view, axis)}, where curves bend`) : null,
         "drag to zoom · double click for all",
       ),
     ),

@@ -2,12 +2,14 @@
 
 function sweepSection() {
   const { axes, effects, shares, samples, scheme, seeds, seeds_asked: asked } = DATA.sweep;
-  const { unjudged, unstable } = DATA.sweep;
+  const { unjudged, unstable, window } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
   const otherAxes = axes.map((axis) => axis.column).filter((name) => !axisColumns.slice(0, 2).includes(name));
+  const directed = bothDirections(columns.direction);
+  if (directed) otherAxes.push("direction");
   const attractors = readAttractors();
   const over = readOver();
   const measures = table.names
@@ -21,6 +23,7 @@ function sweepSection() {
         (axis) =>
           `${columnLabel(axis.column)}: ${Array.isArray(columns[axis.column]) ? columns[axis.column][i] : digits(columns[axis.column][i], 6)}`,
       ),
+      directed ? `along ${columns.direction[i] === "up" ? "rising" : "falling"} values` : null,
       attractors && columns.attractor ? attractorText(attractors, columns.attractor[i]) : null,
       ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${withInterval(columns, name, i)}`),
       columns.status && (columns.status[i] !== "ok" || columns.error[i])
@@ -40,13 +43,16 @@ function sweepSection() {
         return `--set ${shellWord(`${key}=${typeof value === "number" ? value * factor : value}`)}`;
       }),
     );
-    const by =
-      (scheme ? ` --scheme ${shellWord(scheme)}` : "") + (asked ? ` ${asked}` : "");
+    const by = [scheme ? `--scheme ${shellWord(scheme)}` : null, asked, windowAsked(window)];
     const file = shellWord(`${DATA.name}.toml`);
     const row = columns.row[i];
+    const follows = axes.some((axis) => axis.follow !== "No");
     command.textContent =
       `# In the folder of this page, where ${DATA.name}.toml is what "Save the case" below gives:\n` +
-      `signorini run ${file} ${set.join(" ")}${by} --out rows/${row}\n` +
+      (follows
+        ? "# the row began where the one before it ended, this run at the start of the case.\n"
+        : "") +
+      `signorini run ${[file, ...set, ...by].filter(Boolean).join(" ")} --out rows/${row}\n` +
       "# A click opens that run, once this page was made anew:\nsignorini report .";
     command.hidden = false;
     if (kept.has(row)) open(`rows/${row}/report.html`);
@@ -107,6 +113,13 @@ function sweepSection() {
     ),
     saveBar("sweep.csv", () => linesOf(table)),
   );
+}
+
+/** The arguments of `run` for the window of the rows; null for that of the case. */
+function windowAsked(window) {
+  if (window?.keep_periods) return `--settle ${window.settle_periods} --keep ${window.keep_periods}`;
+  if (!window?.keep_s) return null;
+  return `--end ${window.settle_s + window.keep_s} --set time.statistics_from=${window.settle_s}`;
 }
 
 /** Another sweep that is drawn in the same figures: its name, table and instants; null without. */

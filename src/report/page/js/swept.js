@@ -25,33 +25,58 @@ function axisInWords({ column }, columns) {
   return `${name}${range}, ${number}`;
 }
 
-/** The least and the largest value of a measure, and over one axis where they are. */
+/** The rows of a measure that has the value `value`, up to rounding. */
+const rowsWith = (values, value) =>
+  Array.from(values.keys()).filter((i) => Math.abs(values[i] - value) <= ROUNDING * Math.abs(value));
+
+/** Where a measure has an extreme value: at one place, or between which ones; "" where its interval
+ *  does not tell it from another row, and where rows have more than two keys. */
+function placeInWords(measure, value, columns, axes) {
+  const values = columns[measure];
+  const rows = rowsWith(values, value);
+  const half = halfWidthsOf(columns, measure);
+  const apart = (i) => !(Math.abs(values[i] - value) <= half[i] + half[rows[0]]);
+  if (half && ![...values.keys()].every((i) => rows.includes(i) || Number.isNaN(values[i]) || apart(i))) return "";
+  if (axes.length > 2 || axes.some(({ column }) => Array.isArray(columns[column]))) return "";
+  const at = ({ column }, i) =>
+    `${digits(columns[column][i], digitsApart(columns[column]))}${nameAndUnit(column)[1]}`;
+  const direction = bothDirections(columns.direction) && rows.length === 1 ? `, ${columns.direction[rows[0]]}` : "";
+  const places = new Set(rows.map((i) => axes.map((axis) => at(axis, i)).join(", ")));
+  if (places.size === 1) return ` (at ${[...places][0]}${direction})`;
+  if (axes.length > 1) return ` (in ${rows.length} rows)`;
+  const ends = extent(rows.map((i) => columns[axes[0].column][i]));
+  const shown = ends.map((x) => digits(x, digitsApart(columns[axes[0].column]))).join(" to ");
+  return ` (at ${places.size} values, ${shown}${nameAndUnit(axes[0].column)[1]})`;
+}
+
+/** The least and the largest value of a measure, and where they are. */
 function extremesInWords(measure, columns, axes) {
   const span = extent(columns[measure]);
   const [name, unit] = nameAndUnit(measure);
-  if (!span) return null;
-  const [axis] = axes;
+  if (!span) return `${name} nowhere`;
   // As of the speed of impacts where there is none.
   const missing = Array.from(columns[measure]).filter(Number.isNaN).length;
   const none = missing ? `, none at ${missing} value${missing === 1 ? "" : "s"}` : "";
   const everywhere = missing ? "wherever there is one" : "everywhere";
   if (!(span[1] - span[0] > ROUNDING * Math.max(...span.map(Math.abs))))
     return `${name} ${digits(span[0])}${unit} ${everywhere}${none}`;
-  const at = (value) => {
-    if (axes.length > 1 || Array.isArray(columns[axis.column])) return "";
-    const where = columns[axis.column][columns[measure].indexOf(value)];
-    return ` (at ${digits(where, digitsApart(columns[axis.column]))}${nameAndUnit(axis.column)[1]})`;
-  };
-  return `${name} ${digits(span[0])}${at(span[0])} to ${digits(span[1])}${unit}${at(span[1])}${none}`;
+  const n = digitsApart(span);
+  const [least, most] = span.map((value) => {
+    const half = (halfWidthsOf(columns, measure) || [])[rowsWith(columns[measure], value)[0]];
+    return [half > 0 ? plusMinus(value, half) : digits(value, n), placeInWords(measure, value, columns, axes)];
+  });
+  return `${name} ${least[0]}${least[1]} to ${most[0]}${unit}${most[1]}${none}`;
 }
 
-/** How many starts lead to which attractor. */
-function attractorsInWords(attractors) {
+/** How many starts lead to which attractor, and how many to none that was found. */
+function attractorsInWords(attractors, numbers) {
   const { columns, rows, short } = attractors;
   const largest = [...rows].sort((i, j) => columns.share[j] - columns.share[i]);
   const told = largest.slice(0, TOLD_ATTRACTORS).map((i) => `${digits(100 * columns.share[i], 3)} % to ${short(i)}`);
   const number = `${rows.length} attractor${rows.length === 1 ? "" : "s"}`;
-  return `the starts lead to ${number}: ${told.join(", ")}${rows.length > told.length ? ", …" : ""}`;
+  const lost = Array.from(numbers).filter((one) => !(one >= 1)).length;
+  const undecided = `; of ${digits((100 * lost) / numbers.length, 3)} % none was found: more periods to settle and to keep may decide them`;
+  return `the starts lead to ${number}: ${told.join(", ")}${rows.length > told.length ? ", …" : ""}${lost ? undecided : ""}`;
 }
 
 /** The values that the instants of a row return to, or null where they do not within those kept. */
@@ -61,10 +86,37 @@ function repeated(values, width) {
   return kept.length <= sorted.length / 2 ? kept : null;
 }
 
+/** Measures of rising and of falling values that differ by less than this share agree. */
+const SAME_MEASURE = 0.01;
+
+/** At how many values, and between which, something holds: "15 of 91 values, between 1 and 4.5 Hz". */
+function valuesInWords(found, count, axis) {
+  const ends = extent(found).map((x) => digits(x));
+  const where = ends[0] === ends[1] ? `at ${ends[0]}` : `between ${ends.join(" and ")}`;
+  return `${found.length} of ${count} values, ${where}${nameAndUnit(axis)[1]}`;
+}
+
+/** Where measures of rising and of falling values differ; null where a sweep has no instants to tell
+ *  by whether the motions repeat. */
+function measuresApartInWords({ columns, rows }, measures, axis) {
+  const pairs = new Map();
+  for (const i of rows) pairs.set(columns[axis][i], { ...pairs.get(columns[axis][i]), [columns.direction[i]]: i });
+  const apart = (values, { up, down }) =>
+    Math.abs(values[up] - values[down]) > SAME_MEASURE * Math.max(Math.abs(values[up]), Math.abs(values[down]));
+  const found = measures.map((name) => {
+    const where = [...pairs].filter(([, pair]) => apart(columns[name], pair)).map(([value]) => value);
+    const text = where.length && `up and down differ by more than 1 % in ${nameAndUnit(name)[0]} at ${valuesInWords(where, pairs.size, axis)}`;
+    return [where.length, text];
+  });
+  const [count, text] = found.sort((a, b) => b[0] - a[0])[0] || [0];
+  return count ? `${text} (two motions, or ones that do not repeat)` : "up and down agree to 1 %";
+}
+
 /** Where rows of rising and of falling values lead to different motions that repeat. */
-function directionsInWords(table, samples, axis) {
+function directionsInWords(table, samples, measures, axis) {
   const { columns } = table;
-  if (!samples || !bothDirections(columns.direction)) return null;
+  if (!bothDirections(columns.direction)) return null;
+  if (!samples) return measures.length ? measuresApartInWords(table, measures, axis) : null;
   const instants = samples.columns[sampledColumn(samples)];
   const [least, most] = extent(instants) || [0, 0];
   const width = SAME_INSTANT * (most - least);
@@ -80,10 +132,9 @@ function directionsInWords(table, samples, axis) {
   const differ = ({ up, down }) =>
     up.length !== down.length || up.some((y, k) => Math.abs(y - down[k]) > 2 * width);
   const apart = whole.filter(([, pair]) => differ(pair)).map(([value]) => value);
-  const unit = nameAndUnit(axis)[1];
   const open = pairs.size - whole.length;
   const unlike = apart.length
-    ? `up and down lead to different motions at ${apart.length} values, ${extent(apart).map((x) => digits(x)).join(" to ")}${unit}`
+    ? `up and down lead to different motions at ${valuesInWords(apart, pairs.size, axis)}`
     : "up and down lead to the same motions";
   const [rest, stay] = [whole.length ? unlike : null, `at ${open} values motions do not repeat within what was kept`];
   return [rest, open ? stay : null].filter((part) => part).join("; ");
@@ -105,11 +156,11 @@ function sweptInWords(table, measures, attractors, samples, axisColumns) {
   const varied = many
     ? `${axes.length} keys varied: ${axes.map(({ column }) => nameAndUnit(column)[0]).join(", ")}`
     : axes.map((axis) => axisInWords(axis, columns)).join("; ");
-  const told = effects || many ? [] : measures.slice(0, TOLD_MEASURES);
+  const told = effects ? [] : measures.slice(0, TOLD_MEASURES);
   const found = [
-    attractors && columns.attractor ? attractorsInWords(attractors) : null,
+    attractors && columns.attractor ? attractorsInWords(attractors, columns.attractor) : null,
     ...(attractors ? [] : told.map((name) => extremesInWords(name, columns, axes))),
-    axisColumns.length === 1 ? directionsInWords(table, samples, axisColumns[0]) : null,
+    axisColumns.length === 1 ? directionsInWords(table, samples, attractors ? [] : measures, axisColumns[0]) : null,
     failedInWords(table),
   ].filter((part) => part);
   return found.length ? `${varied}: ${found.join("; ")}` : varied;

@@ -46,7 +46,7 @@ function wearSection() {
   const columns = wearColumns(table);
   const measures = Object.keys(columns).filter((name) => name !== "year" && !isHalfWidth(name));
   const { limit } = DATA.draws;
-  const marks = (unit) => (limit && unit === "mm" ? [{ y: 1e3 * limit, dash: [6, 4], label: "limit" }] : []);
+  const marks = (unit) => (limit && unit === "mm" ? [{ y: 1e3 * limit, dash: [6, 4], label: "limit of depths" }] : []);
   const tell = (i) =>
     [
       `${digits(columns.year[i], 4)} years`,
