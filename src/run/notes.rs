@@ -12,7 +12,7 @@ pub(crate) use approach::NO_CONTACT;
 pub(crate) use resting::resting;
 pub(crate) use setup::setup;
 #[cfg(feature = "cli")]
-pub(crate) use setup::{NEGATIVE_DAMPING, UNRESOLVED_LOAD, unstable};
+pub(crate) use setup::{NEGATIVE_DAMPING, UNRESOLVED_LOAD, misses_a_load, unstable};
 pub(crate) use unsettled::unsettled;
 
 use super::finished::Run;

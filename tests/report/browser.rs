@@ -399,7 +399,7 @@ fn basins_tell_the_attractor_of_each_start() {
     tab.click(x + 76.0, y + h - 50.0);
     let command = tab.evaluate("document.querySelector('#sweep pre').textContent").as_str().unwrap().to_owned();
     let words = "signorini run rigid-walls-sine.toml --set initial.displacement=-0.004 --set \
-        initial.velocity=-0.3 --scheme event";
+        initial.velocity=-0.3 --scheme event --settle 400 --keep 60";
     assert!(command.lines().any(|line| line == format!("{words} --out rows/0")), "{command}");
     // With the case of the page the command runs.
     let case = tab.evaluate("document.querySelector('#text details pre').textContent").as_str().unwrap().to_owned();

@@ -118,3 +118,24 @@ fn what_cannot_be_varied_one_at_a_time_is_refused_by_name() {
     refused(&["--vary", "support.*.gap=1e-4:4e-4", "--one-at-a-time", "--follow", "up"], &["--follow"]);
     assert!(!dir.path().join("out").exists(), "a refused request leaves nothing");
 }
+
+/// Between the bounds of the stiffness lies the resonance, which takes the displacement down at both
+/// of them: the difference between the bounds is small, the bar is long, and stands first.
+#[test]
+fn a_key_that_turns_the_measure_between_its_bounds_has_the_longest_bar() {
+    let dir = tempfile::tempdir().unwrap();
+    // Without contact, at the natural frequency of 100 N/m and 1 kg.
+    let alone = ["--set", "wall.upper.position=10", "--set", "wall.lower.position=-10"];
+    let at_resonance = ["--set", "load.1.harmonic.frequency=1.5915"];
+    let keys = ["--vary", "system.oscillator.damping=0.18:0.22", "--vary", "system.oscillator.stiffness=80:125"];
+    let own = ["--one-at-a-time", "--measure", "displacement_max", "--settle", "200", "--keep", "10", "--out", "o"];
+    let scheme = ["--scheme", "event"];
+    let args = [&["sweep", "rigid-walls-sine"], &alone[..], &at_resonance, &keys, &own, &scheme].concat();
+    let (_, told) = said(dir.path(), &args, 0);
+    assert!(told.contains("on one side of its value in the case at both bounds of system.oscillator.stiff"), "{told}");
+    let effects = rows(&dir.path().join("o/effects.csv"));
+    let of = |row: usize| (effects[row]["key"].as_str(), number(&effects[row], "effect"));
+    let ((first, stiffness), (second, damping)) = (of(0), of(1));
+    assert_eq!((first, second), ("system.oscillator.stiffness", "system.oscillator.damping"));
+    assert!(stiffness.abs() < 0.2 * damping.abs(), "{effects:?}");
+}

@@ -21,7 +21,7 @@ use crate::output::run as output;
 use crate::output::run_folder;
 use crate::output::summary::Checks;
 use crate::output::supports;
-use crate::run::Run;
+use crate::run::{Run, notes};
 use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::study::realisations::RealisationStudy;
@@ -82,7 +82,13 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         [checked_line("refinement", refinement.as_ref()), checked_line("truncation", truncation.as_ref())];
     let [modes, accuracy] = [checked_line("modes", modes.as_ref()), checked_line("accuracy", accuracy.as_ref())];
     let order = refinement.as_ref().and_then(|_| first_order(&method, &case.scene));
-    answer.messages([refinement, order, truncation, modes, accuracy].into_iter().flatten());
+    let unseen = refinement.as_ref().filter(|_| notes::misses_a_load(&case.scene, &method.scheme, run.grid.step));
+    let unseen = unseen.map(|_| {
+        "the step misses part of a load, see the notes: half the step may miss the same, so that the change above is \
+         no error of the run; a smaller step, or --accuracy, finds it"
+            .to_owned()
+    });
+    answer.messages([refinement, order, unseen, truncation, modes, accuracy].into_iter().flatten());
     if shortfall.is_some() {
         answer.close_with(", kept in spite of the error below");
     }

@@ -162,6 +162,14 @@ fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
 /// With this begins the note on a harmonic load that the step does not resolve.
 pub(crate) const UNRESOLVED_LOAD: &str = "a period of load ";
 
+/// True if the step does not resolve a load: half of it may miss the same, so that the change to
+/// half the step says little.
+#[cfg(feature = "cli")]
+pub(crate) fn misses_a_load(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
+    !scheme.is_exact()
+        && scene.loads.iter().enumerate().any(|(i, load)| load_resolved(scene, i, load, (scheme, step)).is_some())
+}
+
 /// A note on a load that changes faster than the step resolves.
 fn load_resolved(scene: &Scene, index: usize, load: &Load, (scheme, step): (&Scheme, f64)) -> Option<String> {
     let number = index + 1;

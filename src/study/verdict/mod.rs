@@ -21,6 +21,9 @@ use serde::Serialize;
 /// Cost of a verdict, in runs like the one it checks.
 pub const COST: f64 = 2.0;
 
+/// Motions whose displacements differ by more than this share of the gap have parted.
+const PARTED: f64 = 0.1;
+
 /// How a run was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -85,6 +88,8 @@ pub struct Verdict {
     /// Time up to which displacements were compared, s: the end, or where a perturbation of the
     /// start has grown [`LARGEST_GROWTH`]-fold, or the last row of a run that diverged.
     pub horizon_s: f64,
+    /// End of the run, s.
+    pub end_s: f64,
     /// One entry per wall, then per round support, in the scene's order. Unlike displacements,
     /// these are compared over the whole run. Sliders have none: their normal impulse is given.
     pub walls: Vec<WallVerdict>,
@@ -156,6 +161,7 @@ impl Verdict {
             length_m: error_length(scene, &again.trajectory),
             is_gap: scene.gap().is_some(),
             horizon_s,
+            end_s: scene.duration,
             walls: wall_verdicts(scene, [pair.0, pair.1]),
             findings: again.findings,
         })
@@ -166,6 +172,13 @@ impl Verdict {
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
         largest_change(self.walls.iter().map(|wall| wall.impulse_n_s))
+    }
+
+    /// True if the motions of run and check part before the end, so that what is compared over the
+    /// whole run are differences between two motions, and no errors of one.
+    #[must_use]
+    pub fn parts(&self) -> bool {
+        self.horizon_s < self.end_s * (1.0 - 1e-9) || self.displacement.is_some_and(|share| share > PARTED)
     }
 
     /// By how many contacts the check exceeds the run, all walls together.

@@ -64,6 +64,9 @@ impl fmt::Display for Verdict {
             Check::OtherRounding { .. } => f.write_str("the exact scheme has no step; with other roundings")?,
         }
         write!(f, " the displacement {}", self.displacement_words())?;
+        if self.parts() && !(self.walls.is_empty() && self.work_rates.is_empty()) {
+            f.write_str("; the motions part, so that the rest are differences between two of them, no errors of one")?;
+        }
         for wall in self.foremost() {
             write!(f, "; {} {:?}: impulse {}", wall.kind.word(), wall.wall, relative(wall.impulse_n_s, "N s"))?;
             let [before, after] = wall.contacts;
@@ -140,6 +143,7 @@ mod tests {
             length_m: 1e-3,
             is_gap: true,
             horizon_s: 1.0,
+            end_s: 1.0,
             walls,
             work_rates: Vec::new(),
             findings: Vec::new(),
@@ -181,6 +185,11 @@ mod tests {
         assert_eq!(said.displacement_words(), "changes by 1.3e-8 of the gap up to t = 1.0000 s");
         said.is_gap = false;
         assert_eq!(said.displacement_words(), "changes by 2.6e-11 m up to t = 1.0000 s");
+        assert!(!said.to_string().contains("part"));
+        let parted = Verdict { displacement: Some(0.5), ..verdict(&[[1.0, 1.0]]) };
+        let beyond = Verdict { horizon_s: 0.5, ..verdict(&[[1.0, 1.0]]) };
+        assert!([parted, beyond].iter().all(|one| one.to_string().contains("the motions part")));
+        assert!(!verdict(&[[1.0, 1.0]]).to_string().contains("part"));
         (said.displacement, said.horizon_s) = (None, 2e-5);
         let words = said.displacement_words();
         assert!(words.starts_with("was not compared: beyond t = 2.000e-5 s"), "{words}");
