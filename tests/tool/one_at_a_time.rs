@@ -119,8 +119,8 @@ fn what_cannot_be_varied_one_at_a_time_is_refused_by_name() {
     assert!(!dir.path().join("out").exists(), "a refused request leaves nothing");
 }
 
-/// Between the bounds of the stiffness lies the resonance, which takes the displacement down at both
-/// of them: the difference between the bounds is small, the bar is long, and stands first.
+/// Between the bounds of the stiffness lies the resonance, which takes the displacement down at
+/// both of them: the difference between the bounds is small, the bar is long, and stands first.
 #[test]
 fn a_key_that_turns_the_measure_between_its_bounds_has_the_longest_bar() {
     let dir = tempfile::tempdir().unwrap();

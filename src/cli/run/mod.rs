@@ -81,14 +81,9 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let [refinement, truncation] =
         [checked_line("refinement", refinement.as_ref()), checked_line("truncation", truncation.as_ref())];
     let [modes, accuracy] = [checked_line("modes", modes.as_ref()), checked_line("accuracy", accuracy.as_ref())];
-    let order = refinement.as_ref().and_then(|_| first_order(&method, &case.scene));
-    let unseen = refinement.as_ref().filter(|_| notes::misses_a_load(&case.scene, &method.scheme, run.grid.step));
-    let unseen = unseen.map(|_| {
-        "the step misses part of a load, see the notes: half the step may miss the same, so that the change above is \
-         no error of the run; a smaller step, or --accuracy, finds it"
-            .to_owned()
-    });
-    answer.messages([refinement, order, unseen, truncation, modes, accuracy].into_iter().flatten());
+    let limits = refinement.as_ref().map(|_| refinement_limits(&method, &case.scene, run.grid.step));
+    answer.messages(refinement.into_iter().chain(limits.into_iter().flatten()));
+    answer.messages([truncation, modes, accuracy].into_iter().flatten());
     if shortfall.is_some() {
         answer.close_with(", kept in spite of the error below");
     }
@@ -96,8 +91,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     Ok(answer)
 }
 
-/// What the refinement by a scheme of order 1 means.
-fn first_order(method: &Method, scene: &Scene) -> Option<String> {
+/// What half the step does not show of the error of `method` in steps of `step` seconds.
+fn refinement_limits(method: &Method, scene: &Scene, step: f64) -> Vec<String> {
     let entry = method.scheme.entry();
     let error = if scene.dashpot_wall().is_some() {
         "at a wall with a dashpot its error depends on where its steps meet the wall, and half the step may change far \
@@ -105,7 +100,13 @@ fn first_order(method: &Method, scene: &Scene) -> Option<String> {
     } else {
         "its error is about twice what half the step changes, and more where changes of many impacts cancel"
     };
-    (entry.order == Some(1)).then(|| format!("{} is of order 1: {error}", entry.name))
+    let first_order = (entry.order == Some(1)).then(|| format!("{} is of order 1: {error}", entry.name));
+    let misses = notes::misses_a_load(scene, &method.scheme, step).then(|| {
+        "the step misses part of a load, see the notes: half the step may miss the same, so that the change above is \
+         no error of the run; a smaller step, or --accuracy, finds it"
+            .to_owned()
+    });
+    first_order.into_iter().chain(misses).collect()
 }
 
 /// The run, and the study of realisations where one is wanted.

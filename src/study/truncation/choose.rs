@@ -71,10 +71,10 @@ impl ChosenModes {
 }
 
 /// Increases the number of modes by half, from `start` on, until two successive increases, by modes
-/// that move all walls, change no wall's impulse and peak by more than a quarter of `tolerance`; runs are by `method` with the
-/// step and window of `time`. Where the changes do not decrease, it gives up and keeps `start`, the
-/// cheapest number, since no other number tried is known to be more accurate. `progress` is called
-/// with the time (s) that the current run has reached.
+/// that move all walls, change no wall's impulse and peak by more than a quarter of `tolerance`;
+/// runs are by `method` with the step and window of `time`. Where the changes do not decrease, it
+/// gives up and keeps `start`, the cheapest number, since no other number tried is known to be more
+/// accurate. `progress` is called with the time (s) that the current run has reached.
 ///
 /// # Errors
 /// Errors of a reduction or a run.

@@ -201,8 +201,9 @@ impl Felt {
 }
 
 /// True if `more` modes than those of `cut` can show what leaving them out changes at every wall
-/// and round support: each of them feels a smaller mass with them, or feels nearly that of the whole
-/// structure already. Modes with a node there, or of another body, change nothing and tell nothing.
+/// and round support: each of them feels a smaller mass with them, or feels nearly that of the
+/// whole structure already. Modes with a node there, or of another body, change nothing and tell
+/// nothing.
 fn reaches_all_walls(cut: &Reduction, more: &Reduction) -> bool {
     cut.walls.iter().zip(&more.walls).all(|(own, more)| {
         own.mass_kept > (1.0 + LIGHTER) * more.mass_kept || own.mass_kept <= (1.0 + LIGHTER) * own.mass
@@ -234,8 +235,8 @@ pub struct Truncation {
 
 impl Truncation {
     /// Compares `run` of the `reduction`, made by `method` with the options `time`, with the run of
-    /// twice its modes, or of all of them; where these do not move every wall, of more. `None` if it
-    /// has all. `progress` is called with the time (s) that the other run has reached.
+    /// twice its modes, or of all of them; where these do not move every wall, of more. `None` if
+    /// it has all. `progress` is called with the time (s) that the other run has reached.
     ///
     /// # Errors
     /// Errors of the other reduction or run.
