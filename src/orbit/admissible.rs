@@ -33,10 +33,10 @@ pub struct Admissible {
     /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is
     /// 0 at the release itself, which is left out.
     pub least_push: f64,
-    /// Where an elastic wall with a dashpot comes nearest to letting go of the body within a
-    /// contact, or, behind its face once it has let go, to pushing again; its `gap` is the force
-    /// there over the stiffness of the wall, below 0 where it does so. `None` where no force turns
-    /// back from 0, and for structures.
+    /// Where an elastic wall comes nearest to letting go of the body within a contact, or, with a
+    /// dashpot, behind its face once it has let go, to pushing again; its `gap` is the force there
+    /// over the stiffness of the wall, below 0 where it does so. `None` where no force turns back
+    /// from 0, and for structures.
     pub nearest_change: Option<Nearest>,
     /// The largest |displacement|, m; of accumulating impacts only the first counts.
     pub largest: f64,
@@ -143,18 +143,18 @@ impl Problem {
         });
     }
 
-    /// Where an elastic wall with a dashpot comes nearest to an event inside the flight of `arc`,
-    /// which event number `flight` begins at `phase` (cycles). Its force is P = k s + c ṡ at depth
-    /// s. While the wall pushes, the least P counts; once it has let go of a body that is still
-    /// behind its face, the largest one.
+    /// Where an elastic wall comes nearest to an event inside the flight of `arc`, which event
+    /// number `flight` begins at `phase` (cycles). Its force is P = k s + c ṡ at depth s. While the
+    /// wall pushes, the least P counts; once it has let go of a body that is still behind its face,
+    /// as with a dashpot, the largest one.
     pub(super) fn nearest_change(&self, arc: &Arc, flight: usize, phase: f64) -> Option<Nearest> {
         let mut found: Option<Nearest> = None;
         for (wall, boundary) in self.boundaries().iter().enumerate() {
             let BoundaryLaw::Elastic { stiffness, damping } = boundary.law else { continue };
-            if damping == 0.0 {
+            let pushes = arc.touching().any(|touching| touching == wall);
+            if damping == 0.0 && !pushes {
                 continue;
             }
-            let pushes = arc.touching().any(|touching| touching == wall);
             let away = if pushes { boundary.toward } else { -boundary.toward };
             extremes(arc, arc.end() - arc.start(), [1.0, damping / stiffness], |tau, &[q, v, ..], curvature| {
                 let turns_back = away * curvature > 0.0 && (pushes || boundary.gap(q) < 0.0);

@@ -152,8 +152,13 @@ impl Orbit {
     /// The shortest orbit that this one repeats, with false; or the half whose mirror image is the
     /// other half, with true.
     pub(super) fn part(&self, mirror: Option<&[usize]>) -> Option<(Self, bool)> {
-        let once = self.repeated(SAME).map(|once| (once, false));
-        once.or_else(|| self.folded(mirror, SAME).map(|half| (half, true)))
+        self.part_within(mirror, SAME)
+    }
+
+    /// The same with instants within `near` cycles and speeds within `near` of the largest.
+    pub(super) fn part_within(&self, mirror: Option<&[usize]>, near: f64) -> Option<(Self, bool)> {
+        let once = self.repeated(near).map(|once| (once, false));
+        once.or_else(|| self.folded(mirror, near).map(|half| (half, true)))
     }
 
     /// True if both are the same orbit, whichever event they begin with: all instants within `near`

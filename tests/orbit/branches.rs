@@ -529,3 +529,41 @@ fn a_branch_of_twice_the_period_ends_where_it_meets_that_of_the_single_one_again
         }
     }
 }
+
+/// A bilinear oscillator, whose wall is eight times as stiff as its spring: the orbit over two
+/// periods with one contact, resonant at twice the bilinear frequency. Where the body leaves its
+/// wall for an instant within that contact, there begin orbits with two, down to the doubling of the
+/// orbits over one period.
+#[test]
+fn a_contact_without_a_dashpot_parts_where_its_wall_lets_go_within_it() {
+    let family = |frequency: f64| {
+        Ok(Scene::oscillator(1.0, 0.2, 1.0)
+            .with_wall(Wall::upper("stop", 0.0).with_elasticity(8.0, 0.0))
+            .with_load(Load::harmonic(1.0, frequency, 0.0)))
+    };
+    let start = settled(family(0.477_464_829).unwrap());
+    assert_eq!((start.signature.periods, start.signature.events.len()), (2, 2));
+    let graph = follow(&family, &start, 0.477_464_829, [0.3, 0.8], (Switch::All, 4));
+    let number = |label: Label| graph.specials.iter().filter(|special| special.label == label).count();
+    assert!(graph.branches.iter().all(|branch| !branch.ends.iter().flatten().any(|end| matches!(end, End::Stuck(_)))));
+    let [parts] = graph.specials.iter().filter(|s| s.label == Label::ContactEnds).collect::<Vec<_>>()[..] else {
+        panic!("{:?}", values(&graph))
+    };
+    // Two contacts follow, up to the doubling of the orbits over one period.
+    let [divided] = parts.leads_to[..] else { panic!("{:?}", parts.reason) };
+    assert_eq!(graph.branches[divided].points[0].orbit.signature.events.len(), 4);
+    assert_eq!(graph.branches[divided].ends[1], Some(End::Special(Label::PeriodDoubling)));
+    let doubling = graph.specials.iter().find(|special| special.branch == divided).unwrap();
+    let [single] = doubling.leads_to[..] else { panic!("{:?}", doubling.reason) };
+    assert_eq!(graph.branches[single].points[0].orbit.signature.periods, 1);
+    // A doubling that a branch reaches from beyond is no fold.
+    assert_eq!(number(Label::Fold), 1, "{:?}", values(&graph));
+    // A free run from any orbit comes back.
+    for branch in &graph.branches {
+        for point in branch.points.iter().step_by(10).filter(|point| point.admissible.holds()) {
+            let problem = Problem::new(family(point.value).unwrap()).unwrap();
+            let judged = problem.judge(&point.orbit, 8).unwrap();
+            assert!(judged.same_events, "{} Hz: {}", point.value, point.orbit.signature.events.len());
+        }
+    }
+}

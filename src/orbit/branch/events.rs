@@ -52,17 +52,10 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
         }
         let state = boundary.after(event.kind, orbit.speeds[index]).state;
         let mut arc = problem.arc();
-        if let (Kind::Enter | Kind::Leave | Kind::Again, BoundaryLaw::Elastic { damping, .. }) =
-            (event.kind, boundary.law)
-        {
-            let gap = if damping > 0.0 {
-                problem.fly(&mut arc, state, [start, lasts * problem.forcing_period()], &touching[index], None);
-                let nearest = problem.nearest_change(&arc, index, orbit.phases[index]);
-                nearest.map_or(1.0, |nearest| nearest.gap / length)
-            } else {
-                NONE
-            };
-            add(Label::ContactEnds, gap);
+        if matches!(event.kind, Kind::Enter | Kind::Leave | Kind::Again) {
+            problem.fly(&mut arc, state, [start, lasts * problem.forcing_period()], &touching[index], None);
+            let nearest = problem.nearest_change(&arc, index, orbit.phases[index]);
+            add(Label::ContactEnds, nearest.map_or(1.0, |nearest| nearest.gap / length));
         }
         match (event.kind, boundary.law) {
             (Kind::Rest, _) => {

@@ -3,7 +3,7 @@
 use super::super::signature::Kind;
 use super::arclength::{Stride, beyond, locate, scaled, tangent, turns_little, unit};
 use super::curve::{Curve, Linear, Vector};
-use super::events::{Test, point, tests};
+use super::events::{self, Test, point, tests};
 use super::label::Label;
 use super::line::{End, LEAST_LOOP, Line, Passed};
 use super::point::Point;
@@ -168,14 +168,19 @@ impl Follower<'_, '_> {
             if !turned {
                 continue;
             }
-            let (at, y) = locate([0.0, length], [before.value, after.value], |s| {
+            let value = |s: f64| {
                 let (y, linear, _) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
                 let tangent = tangent(&linear.matrix, &now.tangent)?;
                 let point = point(curve, &linear.problem, &y)?;
                 let all = tests(curve, &linear.problem, &point, &y, &tangent);
                 Ok((all.get(index).map_or(f64::NAN, |test| test.value), y))
-            })
-            .map_err(|error| format!("a {} ahead was not located: {error}", before.label))?;
+            };
+            let located = locate([0.0, length], [before.value, after.value], value).or_else(|error| {
+                // Near a contact of duration 0 the equations are singular.
+                let touches = before.label == Label::GrazingIn || is_elastic(before.label, before.event, &now.point);
+                touches.then(|| last_before([0.0, length], before.value, value)).flatten().ok_or(error)
+            });
+            let (at, y) = located.map_err(|error| format!("a {} ahead was not located: {error}", before.label))?;
             crossed.push(Crossed { at, label: before.label, event: before.event, y });
         }
         Ok(crossed)
@@ -205,11 +210,22 @@ impl Follower<'_, '_> {
     fn pass(&mut self, crossed: Vec<Crossed>, after: usize) -> Result<Option<Label>> {
         for Crossed { label, event, y, .. } in crossed {
             let problem = self.curve.problem(&y)?;
-            let point = point(self.curve, &problem, &y)?;
+            let mut point = point(self.curve, &problem, &y)?;
+            let (mut y, mut label, mut ends) = (y, label, label.ends());
             // Where orbits over several periods meet that of one, the branch turns back along
             // itself: beyond are the same orbits, shifted in time.
-            let met = problem.halves(&point.orbit).filter(|_| label == Label::Fold);
-            let (label, ends) = met.map_or((label, label.ends()), |(_, met)| (met, true));
+            if let Some((half, met)) = problem.halves(&point.orbit).filter(|_| label == Label::Fold) {
+                (label, ends) = (met, true);
+                // The amplitude is the root of the distance to that point, and not as small.
+                if let Ok(once) = self.curve.corrected(&problem, &half, point.value) {
+                    let whole = match met {
+                        Label::PeriodDoubling => once.doubled(),
+                        _ => once.unfolded(problem.mirror()),
+                    };
+                    y = self.curve.gather(&problem, &whole, point.value);
+                    point = events::point(self.curve, &problem, &y)?;
+                }
+            }
             let (wall, curve) = (label.wall(event, &point), self.curve.clone());
             let line = &mut self.line;
             line.passed.push(Passed { label, event, wall, point: point.clone(), curve, y, after, beyond: None });
@@ -229,17 +245,43 @@ const ZERO: f64 = 1e-9;
 /// Special points closer to each other than this share of a step count as one.
 const SAME_PLACE: f64 = 1e-4;
 
+/// Where the contact or the pause of an elastic wall vanishes, its tests are located to this share
+/// of a step.
+const SAME_CONTACT: f64 = 1e-2;
+
+/// True for a test that vanishes where event number `event` of `point`, one at an elastic wall,
+/// meets the next one.
+fn is_elastic(label: Label, event: usize, point: &Point) -> bool {
+    let kind = point.orbit.signature.events.get(event).map(|event| event.kind);
+    matches!(label, Label::GrazingOut | Label::ContactEnds | Label::Corner)
+        && matches!(kind, Some(Kind::Enter | Kind::Leave | Kind::Again))
+}
+
+/// The last arclength in `span`, and the data there, at which a test function that is `first` at
+/// the begin of it was found with that sign, by bisection: beyond it the test has another sign, or
+/// none, since no orbit is found. `None` where it was found nowhere.
+fn last_before<T>(span: [f64; 2], first: f64, at: impl Fn(f64) -> Result<(f64, T)>) -> Option<(f64, T)> {
+    let [mut low, mut high] = span;
+    let mut last = None;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        match at(middle) {
+            Ok((value, data)) if value * first > 0.0 => (low, last) = (middle, Some((middle, data))),
+            _ => high = middle,
+        }
+    }
+    last
+}
+
+/// Halvings of a step: to a thousandth of a millionth of it.
+const HALVINGS: usize = 30;
+
 /// Where the duration of a contact with an elastic wall or of the flight between two goes to 0, the
 /// equations themselves become singular. The other test functions (determinants, and the key's part
 /// of the tangent) vanish there too without meaning anything, and are left out.
 fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let kind = |event: usize| point.orbit.signature.events.get(event).map(|event| event.kind);
-    let elastic = |crossed: &&Crossed| match crossed.label {
-        Label::GrazingOut | Label::ContactEnds | Label::Corner => {
-            matches!(kind(crossed.event), Some(Kind::Enter | Kind::Leave | Kind::Again))
-        }
-        _ => false,
-    };
+    let elastic = |crossed: &&Crossed| is_elastic(crossed.label, crossed.event, point);
     let among = |places: &[f64], at: f64| places.iter().any(|place| (place - at).abs() <= near);
     let ends: Vec<f64> = crossed.iter().filter(elastic).map(|crossed| crossed.at).collect();
     crossed.retain(|crossed| crossed.label.ends() || !among(&ends, crossed.at));
@@ -254,8 +296,22 @@ fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let turns: Vec<f64> = crossed.iter().filter(gone).map(|crossed| crossed.at).collect();
     let echoes = [Label::GrazingIn, Label::Fold];
     crossed.retain(|crossed| !echoes.contains(&crossed.label) || !among(&turns, crossed.at));
-    // Where a contact vanishes, its entry and its exit coincide: the first of the two tests stands
-    // for both.
-    let enters = crossed.iter().filter(gone).any(|crossed| kind(crossed.event) == Some(Kind::Enter));
-    crossed.retain(|crossed| !(enters && crossed.label == Label::ContactEnds && among(&ends, crossed.at)));
+    // Where a contact vanishes, its entry and its exit coincide: the speed of its entry stands for
+    // the speed of its exit and for its duration.
+    let enters: Vec<(usize, f64)> = (crossed.iter().filter(gone))
+        .filter(|crossed| kind(crossed.event) == Some(Kind::Enter))
+        .map(|crossed| (crossed.event, crossed.at))
+        .collect();
+    let of_same = |crossed: &Crossed| {
+        enters.iter().any(|&(entry, at)| {
+            let exit = (entry + 1) % point.orbit.signature.events.len().max(1);
+            let same = match crossed.label {
+                Label::Corner => crossed.event == entry,
+                Label::ContactEnds => crossed.event == entry || crossed.event == exit,
+                _ => false,
+            };
+            same && (crossed.at - at).abs() <= near / SAME_PLACE * SAME_CONTACT
+        })
+    };
+    crossed.retain(|crossed| !of_same(crossed));
 }

@@ -28,8 +28,8 @@ pub enum Label {
     RestBegins,
     /// The duration of a rest has become 0.
     RestEnds,
-    /// The duration of a contact with an elastic wall has become 0; or one of duration 0 begins, or
-    /// a pause of duration 0 within one, where the wall has a dashpot.
+    /// The duration of a contact with an elastic wall has become 0; or a pause of duration 0 within
+    /// one begins, or, where the wall has a dashpot, a push of duration 0.
     ContactEnds,
     /// Two events coincide: what follows depends on which of them is first.
     Corner,

@@ -1,5 +1,6 @@
 //! From a special point to the branch that begins there.
 
+use super::super::admissible::Nearest;
 use super::super::boundary::BoundaryLaw;
 use super::super::equations::CYCLE;
 use super::super::periodic::Orbit;
@@ -19,6 +20,10 @@ use nalgebra::DVector;
 /// orbits.
 const PROBE: f64 = 1e-4;
 
+/// Where orbits over several periods meet that of one, they are located to such a difference: it is
+/// the root of the distance to that point.
+const MET: f64 = 1e-4;
+
 /// Half of the duration of a push or pause with which a new branch begins, in [`CYCLE`].
 const SHORT: f64 = 1e-3;
 
@@ -26,7 +31,7 @@ impl Problem {
     /// The shorter orbit that `orbit` repeats, or whose mirror image is its second half, and the
     /// label of the point where a branch of such orbits begins.
     pub(super) fn halves(&self, orbit: &Orbit) -> Option<(Orbit, Label)> {
-        let (part, mirrored) = orbit.part(self.mirror())?;
+        let (part, mirrored) = orbit.part_within(self.mirror(), MET)?;
         Some((part, if mirrored { Label::SymmetryBreaking } else { Label::PeriodDoubling }))
     }
 }
@@ -82,10 +87,39 @@ impl<'a> Followed for Curve<'a> {
     }
 }
 
+/// The orbit without the flight before the contact that event number `entry` begins, where the
+/// contact before it is with the same wall and that flight is shorter than the contact: the two are
+/// one there. `None` at another special point.
+fn merged(orbit: &Orbit, entry: usize) -> Option<Orbit> {
+    let count = orbit.phases.len();
+    let exit = (entry + count).checked_sub(1)? % count;
+    let [before, after] = [*orbit.signature.events.get(exit)?, *orbit.signature.events.get(entry)?];
+    let same = before.kind == Kind::Leave && before.wall == after.wall && count > 2;
+    let wraps = exit > entry;
+    let flight = orbit.next_phase(exit) - orbit.phases.get(exit)?;
+    let contact = orbit.next_phase(entry) - orbit.phases.get(entry)?;
+    if !same || flight >= contact || (wraps && orbit.signature.symmetric) {
+        return None;
+    }
+    let mut merged = orbit.clone();
+    merged.remove(entry.max(exit));
+    merged.remove(entry.min(exit));
+    // Contacts begin with their entry.
+    Some(if wraps { merged.rotated(1, merged.signature.periods) } else { merged })
+}
+
 impl<'a> Curve<'a> {
     /// The curve of another signature of the same family.
     fn of(&self, signature: &Signature) -> Curve<'a> {
         Curve { family: self.family, signature: signature.clone(), scales: self.scales, width: self.width }
+    }
+
+    /// The orbit near `orbit` at the key's value `value`.
+    pub(super) fn corrected(&self, problem: &Problem, orbit: &Orbit, value: f64) -> Result<Orbit> {
+        let curve = self.of(&orbit.signature);
+        let guess = curve.gather(problem, orbit, value);
+        let (y, linear, _) = curve.correct(&guess, &unit(guess.len(), guess.len() - 1))?;
+        Ok(curve.orbit(&linear.problem, &y))
     }
 
     /// The branch that leaves along the eigenvector of a multiplier −1, at a small amplitude.
@@ -111,23 +145,58 @@ impl<'a> Curve<'a> {
         let nearest = at.point.admissible.nearest.ok_or_else(|| Error::no_orbit("no wall is touched"))?;
         let index = if orbit.phases.is_empty() { 0 } else { nearest.flight + 1 };
         let boundary = problem.boundary(nearest.wall).ok_or_else(|| Error::no_orbit("no wall is touched"))?;
-        let mut insert = |index: usize, kind: Kind, phase: f64, speed: f64| {
-            orbit.insert(index, Event { kind, wall: nearest.wall }, phase, speed);
-        };
         if let BoundaryLaw::Rigid(_) = boundary.law {
-            insert(index, Kind::Impact, nearest.phase, 0.0);
+            orbit.insert(index, Event { kind: Kind::Impact, wall: nearest.wall }, nearest.phase, 0.0);
             let curve = self.of(&orbit.signature);
             let y = curve.gather(problem, &orbit, at.point.value);
             let along = unit(y.len(), 2 * index + 1);
             return Ok(Begin { curve, y, along, both: false });
         }
-        // A contact of short duration: the equations are singular for duration 0.
-        let speed = PROBE * self.scales.speed;
-        let half = speed / (at.point.admissible.largest * (std::f64::consts::TAU / problem.forcing_period()).powi(2));
-        let half = half / problem.forcing_period();
-        insert(index, Kind::Leave, nearest.phase + half, speed);
-        insert(index, Kind::Enter, nearest.phase - half, speed);
-        let along = unit(2 * orbit.phases.len() + 1, 2 * index + 1);
+        self.insert_short(problem, at, nearest, [Kind::Enter, Kind::Leave])
+    }
+
+    /// Adds a contact, push or pause of short duration by the events `kinds` at an elastic wall,
+    /// about the instant at which its force is nearest to what ends or begins there.
+    fn insert_short(
+        &self,
+        problem: &Problem,
+        at: &Passed<Self>,
+        nearest: Nearest,
+        kinds: [Kind; 2],
+    ) -> Result<Begin<Self>> {
+        let none = || Error::no_orbit("no such event");
+        let boundary = problem.boundary(nearest.wall).ok_or_else(none)?;
+        let mut orbit = at.point.orbit.clone();
+        let (touching, events) = (problem.touching(&orbit.signature), &orbit.signature.events);
+        let flight = events.get(nearest.flight).zip(orbit.phases.get(nearest.flight).zip(touching.get(nearest.flight)));
+        let (from, phase, touching, index) = match flight {
+            Some((event, (phase, touching))) => {
+                let speed = orbit.speeds.get(nearest.flight).ok_or_else(none)?;
+                let boundary = problem.boundary(event.wall).ok_or_else(none)?;
+                (boundary.after(event.kind, *speed).state, *phase, &touching[..], nearest.flight + 1)
+            }
+            None => (problem.quiet()?, 0.0, &[][..], 0),
+        };
+        let (period, half, mut arc) = (problem.forcing_period(), SHORT * CYCLE, problem.arc());
+        problem.fly(&mut arc, from, [phase * period, (nearest.phase + half - phase) * period], touching, None);
+        // With a dashpot the body moves at that instant; else it turns there, and crosses the face with
+        // what it has half the duration later.
+        let speed = match boundary.law {
+            BoundaryLaw::Elastic { damping, .. } if damping > 0.0 && !kinds.contains(&Kind::Enter) => {
+                -boundary.toward * arc.state(nearest.phase * period).1
+            }
+            _ => arc.state((nearest.phase + half) * period).1.abs(),
+        };
+        for (kind, phase) in kinds.into_iter().zip([nearest.phase - half, nearest.phase + half]).rev() {
+            orbit.insert(index, Event { kind, wall: nearest.wall }, phase, speed);
+        }
+        // The duration is kept: the equations are singular for duration 0.
+        let share = std::f64::consts::FRAC_1_SQRT_2;
+        let along = DVector::from_fn(2 * orbit.phases.len() + 1, |i, _| match i {
+            i if i == 2 * index => -share,
+            i if i == 2 * index + 2 => share,
+            _ => 0.0,
+        });
         self.begin_short(problem, &orbit, at.point.value, along)
     }
 
@@ -143,36 +212,21 @@ impl<'a> Curve<'a> {
         Ok(Begin { curve, y, along, both: false })
     }
 
-    /// Adds a short pause where an elastic wall with a dashpot lets go of the body, or a short push
-    /// where it pushes again behind its face; `None` at another special point.
+    /// Adds a short pause where an elastic wall lets go of the body, or a short push where one with
+    /// a dashpot pushes again behind its face; `None` at another special point.
     fn divide(&self, problem: &Problem, at: &Passed<Self>) -> Option<Result<Begin<Self>>> {
         let change = at.point.admissible.nearest_change.filter(|_| at.label == Label::ContactEnds)?;
         if change.gap.abs() > PROBE * self.scales.length {
             return None;
         }
-        let mut orbit = at.point.orbit.clone();
-        let (touching, events) = (problem.touching(&orbit.signature), &orbit.signature.events);
-        let (touching, event, phase) =
-            (touching.get(change.flight)?, events.get(change.flight)?, *orbit.phases.get(change.flight)?);
-        let from = problem.boundary(event.wall)?.after(event.kind, *orbit.speeds.get(change.flight)?).state;
-        let (period, mut arc) = (problem.forcing_period(), problem.arc());
-        problem.fly(&mut arc, from, [phase * period, (change.phase - phase) * period], touching, None);
-        let speed = -problem.boundary(change.wall)?.toward * arc.state(change.phase * period).1;
-        let kinds =
-            if touching.contains(&change.wall) { [Kind::Leave, Kind::Again] } else { [Kind::Again, Kind::Leave] };
-        let index = change.flight + 1;
-        let half = SHORT * CYCLE;
-        for (kind, phase) in kinds.into_iter().zip([change.phase - half, change.phase + half]).rev() {
-            orbit.insert(index, Event { kind, wall: change.wall }, phase, speed);
-        }
-        // The duration is kept: the equations are singular for duration 0.
-        let share = std::f64::consts::FRAC_1_SQRT_2;
-        let along = DVector::from_fn(2 * orbit.phases.len() + 1, |i, _| match i {
-            i if i == 2 * index => -share,
-            i if i == 2 * index + 2 => share,
-            _ => 0.0,
-        });
-        Some(self.begin_short(problem, &orbit, at.point.value, along))
+        let touches = problem.touching(&at.point.orbit.signature).get(change.flight)?.contains(&change.wall);
+        let undamped = matches!(problem.boundary(change.wall)?.law, BoundaryLaw::Elastic { damping: 0.0, .. });
+        let kinds = match (undamped, touches) {
+            (true, _) => [Kind::Leave, Kind::Enter],
+            (_, true) => [Kind::Leave, Kind::Again],
+            _ => [Kind::Again, Kind::Leave],
+        };
+        Some(self.insert_short(problem, at, change, kinds))
     }
 
     /// Leaves out a pause within a contact with an elastic wall, or a push behind its face, whose
@@ -193,10 +247,14 @@ impl<'a> Curve<'a> {
         Some(self.begin(problem, &orbit, at.point.value, Some(at), false))
     }
 
-    /// Leaves out the impact whose speed has become 0.
+    /// Leaves out the impact whose speed has become 0; of an elastic wall the contact, or the flight
+    /// between two, that has become so short.
     fn lift(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let kind = orbit.signature.events.get(at.event).map(|event| event.kind);
+        if let Some(merged) = merged(&orbit, at.event).filter(|_| kind == Some(Kind::Enter)) {
+            return self.begin(problem, &merged, at.point.value, Some(at), false);
+        }
         let gone = if kind == Some(Kind::Enter) { 2 } else { 1 };
         if kind == Some(Kind::Rest) {
             return Err(Error::no_orbit(
