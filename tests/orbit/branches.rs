@@ -532,8 +532,8 @@ fn a_branch_of_twice_the_period_ends_where_it_meets_that_of_the_single_one_again
 
 /// A bilinear oscillator, whose wall is eight times as stiff as its spring: the orbit over two
 /// periods with one contact, resonant at twice the bilinear frequency. Where the body leaves its
-/// wall for an instant within that contact, there begin orbits with two, down to the doubling of the
-/// orbits over one period.
+/// wall for an instant within that contact, there begin orbits with two, down to the doubling of
+/// the orbits over one period.
 #[test]
 fn a_contact_without_a_dashpot_parts_where_its_wall_lets_go_within_it() {
     let family = |frequency: f64| {

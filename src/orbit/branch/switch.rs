@@ -179,8 +179,8 @@ impl<'a> Curve<'a> {
         };
         let (period, half, mut arc) = (problem.forcing_period(), SHORT * CYCLE, problem.arc());
         problem.fly(&mut arc, from, [phase * period, (nearest.phase + half - phase) * period], touching, None);
-        // With a dashpot the body moves at that instant; else it turns there, and crosses the face with
-        // what it has half the duration later.
+        // With a dashpot the body moves at that instant; else it turns there, and crosses the face
+        // with what it has half the duration later.
         let speed = match boundary.law {
             BoundaryLaw::Elastic { damping, .. } if damping > 0.0 && !kinds.contains(&Kind::Enter) => {
                 -boundary.toward * arc.state(nearest.phase * period).1
@@ -247,8 +247,8 @@ impl<'a> Curve<'a> {
         Some(self.begin(problem, &orbit, at.point.value, Some(at), false))
     }
 
-    /// Leaves out the impact whose speed has become 0; of an elastic wall the contact, or the flight
-    /// between two, that has become so short.
+    /// Leaves out the impact whose speed has become 0; of an elastic wall the contact, or the
+    /// flight between two, that has become so short.
     fn lift(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let kind = orbit.signature.events.get(at.event).map(|event| event.kind);

@@ -48,9 +48,10 @@ function firstView(columns, axis, measures, over = null) {
 }
 
 /** The stretch that is shown of an axis, of its whole range: "1 to 4.5 of 1 to 10 Hz". */
-function partInWords(view, axis) {
-  const range = (ends) => ends.map((x) => digits(x, 3)).join(" to ");
-  return `${range([view.lo, view.hi])} of ${range(view.full)}${nameAndUnit(axis)[1]}`;
+function partInWords(view, values, axis) {
+  const ends = extent(values);
+  const range = (stretch) => stretch.map((x) => digits(clamp(x, ...ends), 3)).join(" to ");
+  return `${range([view.lo, view.hi])} of ${range(ends)}${nameAndUnit(axis)[1]}`;
 }
 
 /** The words with which all these names begin: of measures at several places what is measured. */
@@ -141,7 +142,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
       el(
         "span",
         { class: "right help" },
-        view.part ? firstShown(view, `${partInWords(view, axis)}, where curves bend`) : null,
+        view.part ? firstShown(view, `${partInWords(view, columns[axis], axis)}, where curves bend`) : null,
         "drag to zoom · double click for all",
       ),
     ),
