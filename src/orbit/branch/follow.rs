@@ -296,20 +296,17 @@ fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let turns: Vec<f64> = crossed.iter().filter(gone).map(|crossed| crossed.at).collect();
     let echoes = [Label::GrazingIn, Label::Fold];
     crossed.retain(|crossed| !echoes.contains(&crossed.label) || !among(&turns, crossed.at));
-    // Where a contact vanishes, its entry and its exit coincide: the speed of its entry stands for
-    // the speed of its exit and for its duration.
+    // Where a contact vanishes, or the flight before it, its entry and an exit coincide: the speed of
+    // the entry stands for that of the exit, and for the duration.
     let enters: Vec<(usize, f64)> = (crossed.iter().filter(gone))
         .filter(|crossed| kind(crossed.event) == Some(Kind::Enter))
         .map(|crossed| (crossed.event, crossed.at))
         .collect();
     let of_same = |crossed: &Crossed| {
         enters.iter().any(|&(entry, at)| {
-            let exit = (entry + 1) % point.orbit.signature.events.len().max(1);
-            let same = match crossed.label {
-                Label::Corner => crossed.event == entry,
-                Label::ContactEnds => crossed.event == entry || crossed.event == exit,
-                _ => false,
-            };
+            let count = point.orbit.signature.events.len().max(1);
+            let beside = [entry, (entry + 1) % count, (entry + count - 1) % count];
+            let same = matches!(crossed.label, Label::Corner | Label::ContactEnds) && beside.contains(&crossed.event);
             same && (crossed.at - at).abs() <= near / SAME_PLACE * SAME_CONTACT
         })
     };

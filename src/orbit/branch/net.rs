@@ -110,19 +110,29 @@ impl<'r, C: Followed> Net<'r, C> {
         let against = if goes_on { None } else { self.against(number, depth) };
         let depth = depth + u32::from(!goes_on);
         let used = if goes_on { self.used.get(own).copied().unwrap_or(0) } else { 0 };
-        let begin = match (against, passed.beyond.take()) {
-            (Some(reason), _) => Err(reason),
-            (None, Some(begin)) => Ok(*begin),
-            (None, None) => passed.curve.switch(&passed).map_err(|error| error.to_string()),
+        let begin = match (&against, passed.beyond.take()) {
+            (Some(reason), _) if self.request.switch == Switch::Stable => Err(reason.clone()),
+            (_, Some(begin)) => Ok(*begin),
+            (_, None) => passed.curve.switch(&passed).map_err(|error| error.to_string()),
         };
-        let outcome =
-            begin.and_then(|begin| self.begin(number, begin, (depth, used), seen).map_err(|error| error.to_string()));
+        let outcome = match (begin, against) {
+            // A branch that is not wanted may be known.
+            (Ok(begin), Some(reason)) => self.meets(number, &begin).map(Some).ok_or(reason),
+            (Err(_), Some(reason)) | (Err(reason), None) => Err(reason),
+            (Ok(begin), None) => self.begin(number, begin, (depth, used), seen).map_err(|error| error.to_string()),
+        };
         let Some(special) = self.graph.specials.get_mut(number) else { return };
         match outcome {
             Ok(Some(branch)) => special.leads_to.push(branch),
             Ok(None) => special.reason = Some("its curve has as many points as were asked for".to_owned()),
             Err(reason) => special.reason = Some(reason),
         }
+    }
+
+    /// The known branch with which the one that begins at special point `number` coincides.
+    fn meets(&self, number: usize, begin: &Begin<C>) -> Option<usize> {
+        let (orbit, metric) = begin.curve.orbit_at(&begin.y).ok()?;
+        self.known(number, &orbit, &metric)
     }
 
     /// Why the request does not want the branch that begins at a special point of a branch to which
