@@ -1,6 +1,6 @@
 //! A periodic orbit: its events, and when and how fast each of them happens.
 
-use super::signature::{Event, Signature};
+use super::signature::{Event, Kind, Signature};
 
 /// A solved orbit repeats a shorter one if its parts differ by less than this, and is symmetric if
 /// its second half differs by less from the mirror image of the first. Newton's method leaves 1e-9
@@ -147,6 +147,27 @@ impl Orbit {
         self.signature.events.remove(index);
         self.phases.remove(index);
         self.speeds.remove(index);
+    }
+
+    /// The orbit without the flight before the contact that event number `entry` begins, where the
+    /// contact before it is with the same elastic wall and that flight is shorter than the contact:
+    /// the two are one where its duration is 0. `None` at another event.
+    pub(super) fn merged(&self, entry: usize) -> Option<Self> {
+        let count = self.phases.len();
+        let exit = (entry + count).checked_sub(1)? % count;
+        let [before, after] = [*self.signature.events.get(exit)?, *self.signature.events.get(entry)?];
+        let same = before.kind == Kind::Leave && before.wall == after.wall && count > 2;
+        let wraps = exit > entry;
+        let flight = self.next_phase(exit) - self.phases.get(exit)?;
+        let contact = self.next_phase(entry) - self.phases.get(entry)?;
+        if !same || flight >= contact || (wraps && self.signature.symmetric) {
+            return None;
+        }
+        let mut merged = self.clone();
+        merged.remove(entry.max(exit));
+        merged.remove(entry.min(exit));
+        // Contacts begin with their entry.
+        Some(if wraps { merged.rotated(1, merged.signature.periods) } else { merged })
     }
 
     /// The shortest orbit that this one repeats, with false; or the half whose mirror image is the

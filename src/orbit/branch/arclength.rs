@@ -253,6 +253,22 @@ fn singular() -> Error {
     Error::no_orbit("the equations are singular across the branch: two branches cross there")
 }
 
+/// The last arclength in `span`, and the data there, at which a test function that is `first` at
+/// the begin of it was found with that sign, by bisection: beyond it the test has another sign, or
+/// none, since `at` finds no point. `None` where it was found nowhere.
+pub(super) fn last_before<T>(span: [f64; 2], first: f64, at: impl Fn(f64) -> Result<(f64, T)>) -> Option<(f64, T)> {
+    let [mut low, mut high] = span;
+    let mut last = None;
+    for _ in 0..LOCATED {
+        let middle = 0.5 * (low + high);
+        match at(middle) {
+            Ok((value, data)) if value * first > 0.0 => (low, last) = (middle, Some((middle, data))),
+            _ => high = middle,
+        }
+    }
+    last
+}
+
 #[cfg(test)]
 mod tests {
     use super::{MOST_SHORT, SHORT, Stride};

@@ -1,7 +1,7 @@
 //! One branch, followed by steps of pseudo-arclength (Keller 1977).
 
 use super::super::signature::Kind;
-use super::arclength::{Stride, beyond, locate, scaled, tangent, turns_little, unit};
+use super::arclength::{Stride, beyond, last_before, locate, scaled, tangent, turns_little, unit};
 use super::curve::{Curve, Linear, Vector};
 use super::events::{self, Test, point, tests};
 use super::label::Label;
@@ -256,25 +256,6 @@ fn is_elastic(label: Label, event: usize, point: &Point) -> bool {
     matches!(label, Label::GrazingOut | Label::ContactEnds | Label::Corner)
         && matches!(kind, Some(Kind::Enter | Kind::Leave | Kind::Again))
 }
-
-/// The last arclength in `span`, and the data there, at which a test function that is `first` at
-/// the begin of it was found with that sign, by bisection: beyond it the test has another sign, or
-/// none, since no orbit is found. `None` where it was found nowhere.
-fn last_before<T>(span: [f64; 2], first: f64, at: impl Fn(f64) -> Result<(f64, T)>) -> Option<(f64, T)> {
-    let [mut low, mut high] = span;
-    let mut last = None;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        match at(middle) {
-            Ok((value, data)) if value * first > 0.0 => (low, last) = (middle, Some((middle, data))),
-            _ => high = middle,
-        }
-    }
-    last
-}
-
-/// Halvings of a step: to a thousandth of a millionth of it.
-const HALVINGS: usize = 30;
 
 /// Where the duration of a contact with an elastic wall or of the flight between two goes to 0, the
 /// equations themselves become singular. The other test functions (determinants, and the key's part

@@ -87,27 +87,6 @@ impl<'a> Followed for Curve<'a> {
     }
 }
 
-/// The orbit without the flight before the contact that event number `entry` begins, where the
-/// contact before it is with the same wall and that flight is shorter than the contact: the two are
-/// one there. `None` at another special point.
-fn merged(orbit: &Orbit, entry: usize) -> Option<Orbit> {
-    let count = orbit.phases.len();
-    let exit = (entry + count).checked_sub(1)? % count;
-    let [before, after] = [*orbit.signature.events.get(exit)?, *orbit.signature.events.get(entry)?];
-    let same = before.kind == Kind::Leave && before.wall == after.wall && count > 2;
-    let wraps = exit > entry;
-    let flight = orbit.next_phase(exit) - orbit.phases.get(exit)?;
-    let contact = orbit.next_phase(entry) - orbit.phases.get(entry)?;
-    if !same || flight >= contact || (wraps && orbit.signature.symmetric) {
-        return None;
-    }
-    let mut merged = orbit.clone();
-    merged.remove(entry.max(exit));
-    merged.remove(entry.min(exit));
-    // Contacts begin with their entry.
-    Some(if wraps { merged.rotated(1, merged.signature.periods) } else { merged })
-}
-
 impl<'a> Curve<'a> {
     /// The curve of another signature of the same family.
     fn of(&self, signature: &Signature) -> Curve<'a> {
@@ -252,7 +231,7 @@ impl<'a> Curve<'a> {
     fn lift(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let kind = orbit.signature.events.get(at.event).map(|event| event.kind);
-        if let Some(merged) = merged(&orbit, at.event).filter(|_| kind == Some(Kind::Enter)) {
+        if let Some(merged) = orbit.merged(at.event).filter(|_| kind == Some(Kind::Enter)) {
             return self.begin(problem, &merged, at.point.value, Some(at), false);
         }
         let gone = if kind == Some(Kind::Enter) { 2 } else { 1 };
