@@ -47,9 +47,15 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     remarks
 }
 
-/// A time in years, with the half width of its 95 % interval.
+/// A time in years, with the half width of its 95 % interval; where that is longer than the time, no
+/// wear at all is in the interval.
 fn in_years(TimeOfLimit { time_s, half_width_95_s, .. }: TimeOfLimit) -> String {
-    half_width_95_s.map_or_else(|| amount(time_s / YEAR, 3), |half| with_interval(time_s / YEAR, Some(half / YEAR)))
+    let years = time_s / YEAR;
+    match half_width_95_s.map(|half| half / YEAR) {
+        Some(half) if half >= years => format!("{} (or never)", with_interval(years, Some(half))),
+        Some(half) => with_interval(years, Some(half)),
+        None => amount(years, 3),
+    }
 }
 
 /// When the tube reaches its limit at each support, a sentence each: first where it does so first.
@@ -295,10 +301,10 @@ mod tests {
         // degree of freedom is 38 years.
         let each = found.reaches_by_history(0, 1.2e-4, depth);
         let mean = |quantity| in_years(found.reaches(0, 1.2e-4, quantity).unwrap());
-        assert_eq!((&*mean(depth), &*among(&each, depth)), ("8 ± 38", " (its 2 histories after 6 to 12)"));
+        assert_eq!((&*mean(depth), &*among(&each, depth)), ("8 ± 38 (or never)", " (its 2 histories after 6 to 12)"));
         // Of the deepest depth, here of one part, its half width then, 12.706 times 0.04 mm, over
         // the mean rate of 0.015 mm a year.
-        assert_eq!(mean(deepest), "8 ± 34");
+        assert_eq!(mean(deepest), "8 ± 34 (or never)");
         assert!(among(&each, deepest).contains("each by its own deepest part after 6 to 12"));
         // 0.6 mm: after 60 and 30 years at those rates, and after 40 at the mean of them, which
         // years of service have, with 12.706 times 0.2 mm over it. The mean of 60 and 30 is late.
@@ -309,14 +315,15 @@ mod tests {
             // The slope is a difference, with some digits less.
             assert!((later.half_width_95_s.unwrap() / YEAR / half_width - 1.0).abs() < 1e-8, "{later:?}");
         }
-        assert_eq!(later(found.reaches_at_last_rate(0, 6e-4, deepest)), ", after 40 ± 169 at the last rate");
+        assert_eq!(later(found.reaches_at_last_rate(0, 6e-4, deepest)), ", after 40 ± 169 (or never) at the last rate");
         // At a hundredth of the rates not even one scar has the limit by then.
         let of = |found: &WearHistories, limit: f64| {
             [deepest, WearQuantity::DepthOneScar, depth].map(|depth| (depth, found.limit_reached(0, limit, depth)))
         };
         let all = all_later(&of(&histories(&[1e-7, 2e-7]), 6e-4)).unwrap();
-        assert!(all.starts_with("at the last rates after 4000 ± 16942 years where it is deepest, after "), "{all}");
-        assert!(all.ends_with("after 4000 ± 16942 if it comes off evenly all round"), "{all}");
+        let never = "after 4000 ± 16942 (or never)";
+        assert!(all.starts_with(&format!("at the last rates {never} years where it is deepest, after ")), "{all}");
+        assert!(all.ends_with(&format!("{never} if it comes off evenly all round")), "{all}");
         assert_eq!(all_later(&of(&found, 1.2e-4)), None, "histories reach it before");
         // Of one history whose windows leave 10 % open: after 12 years, and at 1.1 times the rate
         // after 12/1.1.
@@ -333,7 +340,7 @@ mod tests {
         // is told.
         assert_eq!(
             later(histories(&[0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)),
-            ", after 120 ± 1525 at the last rate"
+            ", after 120 ± 1525 (or never) at the last rate"
         );
         assert_eq!(later(histories(&[0.0, 0.0]).reaches_at_last_rate(0, 6e-4, depth)), "");
     }
