@@ -9,6 +9,9 @@ use super::signature::{Event, Kind, Signature};
 /// to it, this is a distance of 1e-14 of the key's value.
 pub(super) const REPEATED: f64 = 1e-7;
 
+/// Most of a contact that a flight before it takes where that vanishes.
+const MERGED: f64 = 1e-2;
+
 /// Two successive parts of an orbit that differ by less than this are the same.
 const SAME: f64 = 1e-5;
 
@@ -150,8 +153,8 @@ impl Orbit {
     }
 
     /// The orbit without the flight before the contact that event number `entry` begins, where the
-    /// contact before it is with the same elastic wall and that flight is shorter than the contact:
-    /// the two are one where its duration is 0. `None` at another event.
+    /// contact before it is with the same elastic wall and that flight is of at most [`MERGED`] of
+    /// the contact: the two are one where its duration is 0. `None` at another event.
     pub(super) fn merged(&self, entry: usize) -> Option<Self> {
         let count = self.phases.len();
         let exit = (entry + count).checked_sub(1)? % count;
@@ -160,7 +163,7 @@ impl Orbit {
         let wraps = exit > entry;
         let flight = self.next_phase(exit) - self.phases.get(exit)?;
         let contact = self.next_phase(entry) - self.phases.get(entry)?;
-        if !same || flight >= contact || (wraps && self.signature.symmetric) {
+        if !same || flight > MERGED * contact || (wraps && self.signature.symmetric) {
             return None;
         }
         let mut merged = self.clone();

@@ -71,6 +71,7 @@ impl<'a> Followed for Curve<'a> {
             }
             Label::ContactEnds | Label::Corner => {
                 let begun = self.divide(&problem, at).or_else(|| self.join(&problem, at));
+                let begun = begun.or_else(|| self.exchange(&problem, at));
                 begun.or_else(|| self.come_out(&problem, at)).unwrap_or_else(|| {
                     let what = at.label;
                     Err(Error::no_orbit(format!("what follows a {what} is not known: start from a run beyond it")))
@@ -226,13 +227,30 @@ impl<'a> Curve<'a> {
         Some(self.begin(problem, &orbit, at.point.value, Some(at), false))
     }
 
+    /// Exchanges two events at different elastic walls that coincide: neither changes the velocity,
+    /// and the motion does not depend on which is first. `None` at another special point.
+    fn exchange(&self, problem: &Problem, at: &Passed<Self>) -> Option<Result<Begin<Self>>> {
+        let mut orbit = at.point.orbit.clone();
+        let next = at.event + 1;
+        let [first, second] = [*orbit.signature.events.get(at.event)?, *orbit.signature.events.get(next)?];
+        let elastic = |event: Event| matches!(event.kind, Kind::Enter | Kind::Leave | Kind::Again);
+        if at.label != Label::Corner || first.wall == second.wall || !(elastic(first) && elastic(second)) {
+            return None;
+        }
+        orbit.signature.events.swap(at.event, next);
+        orbit.speeds.swap(at.event, next);
+        Some(self.begin(problem, &orbit, at.point.value, Some(at), false))
+    }
+
     /// Leaves out the impact whose speed has become 0; of an elastic wall the contact, or the
     /// flight between two, that has become so short.
     fn lift(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
         let mut orbit = at.point.orbit.clone();
         let kind = orbit.signature.events.get(at.event).map(|event| event.kind);
-        if let Some(merged) = orbit.merged(at.event).filter(|_| kind == Some(Kind::Enter)) {
-            return self.begin(problem, &merged, at.point.value, Some(at), false);
+        let merged = orbit.merged(at.event).filter(|_| kind == Some(Kind::Enter));
+        let merged = merged.map(|merged| self.begin(problem, &merged, at.point.value, Some(at), false));
+        if let Some(Ok(begin)) = merged {
+            return Ok(begin);
         }
         let gone = if kind == Some(Kind::Enter) { 2 } else { 1 };
         if kind == Some(Kind::Rest) {
