@@ -63,7 +63,7 @@ pub fn _wear<'py>(
     let members = study.map_or(window.as_slice(), |study| &study.realisations.members);
     let found = followed(py, case, &plan, (&supports, histories, service), (members, results.as_mut()), &progress)?;
     if let Some(results) = &mut results {
-        let written = wear_folder::write(results, case, (&found, histories), study);
+        let written = wear_folder::write(results, case, (&found, histories), (study, &[]));
         written.and_then(|()| report::finish(results, true)).map_err(raise)?;
     }
     let mut known = wear_told(case, &plan, &found, histories);

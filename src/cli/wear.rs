@@ -13,10 +13,11 @@ use crate::error::Result;
 use crate::output::results::Results;
 use crate::output::wear_folder::{self, WearRequest};
 use crate::output::wear_journal::WindowJournal;
-use crate::output::{wear_history as output, wear_remarks};
+use crate::output::{first_window, run_folder, wear_history as output, wear_remarks};
 use crate::run::Options;
 use crate::scheme::Method;
-use crate::study::realisations::{Realisation, RealisationCount};
+use crate::study::realisations::{Realisation, RealisationCount, RealisationStudy};
+use crate::study::verdict::COST;
 use crate::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
 use serde_json::json;
@@ -33,8 +34,9 @@ W(γ)/(2πRw). With growth = \"shifted\" of the support its centre moves towards
 well; gaps of flats stay, or with growth = \"flats\" each flat recedes by its scar. The work rate W is
 that of a run with the gap of that time; its statistics begin at statistics_from. Under random loads
 several histories are followed, each run with seeds of its own.
-With --until-interval the first runs of the histories are a study of realisations, as that of `run
---until-interval`, with the errors of the first work rates.
+The first window is run with half the step and with more modes as well, and what that changes in its
+work rates is told: the years err alike. With --until-interval the first runs of the histories are a
+study of realisations, as that of `run --until-interval`, with the errors of the first work rates.
 Writes history.csv (every history), years.csv (means with their 95 % intervals), sector-means.csv
 (where around each support it wears), wear.svg and, in first-window/, the files of the first run;
 for --until-interval also realisations.csv and errors.csv (the first runs). A study ends before its
@@ -69,9 +71,9 @@ pub struct Args {
     /// fewer than the interval needs. Histories with such a limit begin anew after an interruption
     #[arg(long, value_name = "TIME", requires = "until_interval", allow_hyphen_values = true)]
     most_time: Option<String>,
-    /// With --until-interval: do not repeat up to six of the first runs with half the step, nor
-    /// with more modes, for the errors of the first work rates
-    #[arg(long, requires = "until_interval")]
+    /// Do not repeat the first window, with --until-interval up to six of the first runs, with half
+    /// the step, nor with more modes, for the errors of the first work rates
+    #[arg(long)]
     no_verdict: bool,
 }
 
@@ -96,6 +98,13 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         let mut progress = |time| bar.set_share(time / case.scene.duration);
         wear_folder::first_window(&mut results, &case, (&method, reason), !place.no_report, &mut progress)
     })?;
+    let checks = (within.is_none() && verdict).then(|| {
+        let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(COST);
+        ui.with_estimate("its checks", estimate, |bar| {
+            run_folder::checks(&case, (&run, &method), &mut |time| bar.set_share(time / case.scene.duration))
+        })
+    });
+    let checked = checks.as_ref().map_or_else(Vec::new, |(step, modes)| first_window::remarks(step, modes.as_ref()));
     let study = |count| realisations::study(&case, (&run, &method), StudyRequest::new(count, verdict), "", ui);
     let first = within.map(study).transpose()?;
     let histories = first.as_ref().map_or(histories, |study| study.realisations.count);
@@ -105,30 +114,38 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     // Another number of histories may fit into the time than before: their windows are others.
     let anew = args.request.place.force || args.most_time.is_some();
     let (found, there) = plan.follow(known, &mut results, anew, ui)?;
-    wear_folder::write(&mut results, &case, (&found, histories), first.as_ref())?;
+    wear_folder::write(&mut results, &case, (&found, histories), (first.as_ref(), &checked))?;
     let mut document = output::document(&case, &found);
     if let Some(study) = &first {
         document["realisations"] = json!(study.realisations);
     }
+    if let Some((step, modes)) = &checks {
+        document["refinement"] = json!(step.as_ref().ok());
+        document["truncation"] = json!(modes.as_ref().and_then(|modes| modes.as_ref().ok()));
+    }
     let mut answer = Answer::of(results, !args.request.place.no_report, document);
     answer.table(output::table(&found), "years.csv");
     answer.remarks(wear_remarks::remarks(&case, &found));
+    answer.messages(checked);
     if let Some(study) = &first {
-        let count = study.realisations.count;
-        answer.messages([format!(
-            "the first runs of the {count} histories, in the gaps of the start, have these errors"
-        )]);
-        realisations::show_errors(study, &mut answer, &case);
-        let shortfall = study.shortfall.clone().or_else(|| not_checked(failed_checks(study)));
-        if shortfall.is_some() {
-            answer.close_with(", kept in spite of the error below");
-        }
-        answer.fall_short(shortfall);
+        show_first(study, &mut answer, &case);
     }
     let runs = format!("{} by {method}: {} runs of {:?} s{there}", case.name, found.windows, case.scene.duration);
     answer.messages([runs]);
     answer.messages(case.notes().iter().map(|note| format!("note: {note}")));
     Ok(answer)
+}
+
+/// Shows the errors of the first runs of the histories, and what they fall short of.
+fn show_first(study: &RealisationStudy, answer: &mut Answer, case: &Case) {
+    let count = study.realisations.count;
+    answer.messages([format!("the first runs of the {count} histories, in the gaps of the start, have these errors")]);
+    realisations::show_errors(study, answer, case);
+    let shortfall = study.shortfall.clone().or_else(|| not_checked(failed_checks(study)));
+    if shortfall.is_some() {
+        answer.close_with(", kept in spite of the error below");
+    }
+    answer.fall_short(shortfall);
 }
 
 impl Args {

@@ -88,12 +88,13 @@ pub fn first_window(
 
 /// Writes the files of `histories` histories of wear at the supports of `case`: `history.csv`,
 /// `years.csv`, `sector-means.csv`, of turbulence those of its forces, the picture `wear`, and
-/// those of the study `first` of their first windows.
+/// those of the study `first` of their first windows. The manifest has what a check of the first
+/// window says (`checked`).
 pub fn write(
     results: &mut Results,
     case: &Case,
     (found, histories): (&WearHistories, usize),
-    first: Option<&RealisationStudy>,
+    (first, checked): (Option<&RealisationStudy>, &[String]),
 ) -> Result<()> {
     wear_history::write(results, found)?;
     turbulence::write(|name| results.place(name), case)?;
@@ -104,7 +105,8 @@ pub fn write(
     }
     results.draw("wear", &wear_history::figure(case, found))?;
     let errors = first.iter().flat_map(|study| error_parts::remarks(&study.realisations, &case.scene));
-    let answers: Vec<String> = wear_remarks::remarks(case, found).into_iter().chain(errors).collect();
+    let answers = wear_remarks::remarks(case, found).into_iter().chain(errors);
+    let answers: Vec<String> = answers.chain(checked.iter().cloned()).collect();
     for (key, value) in [
         ("title", json!(case.title)),
         ("case_file", case.document.json()?),

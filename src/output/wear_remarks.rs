@@ -47,8 +47,8 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     remarks
 }
 
-/// A time in years, with the half width of its 95 % interval; where that is longer than the time, no
-/// wear at all is in the interval.
+/// A time in years, with the half width of its 95 % interval; where that is longer than the time,
+/// no wear at all is in the interval.
 fn in_years(TimeOfLimit { time_s, half_width_95_s, .. }: TimeOfLimit) -> String {
     let years = time_s / YEAR;
     match half_width_95_s.map(|half| half / YEAR) {

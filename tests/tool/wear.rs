@@ -758,3 +758,33 @@ fn notes_that_limit_the_use_of_the_windows_are_told_with_their_number() {
     let (_, err) = said(dir.path(), &[&wear[..], &fine].concat(), 0);
     assert!(!err.contains("runs have notes"), "{err}");
 }
+
+/// The work rates of all windows come from the steps and the modes of the first: what half of the
+/// step and more modes change there is what two runs of these differ by.
+#[test]
+fn the_first_window_tells_what_the_step_and_the_modes_left_out_change() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = ["tube-round-supports", "--set", "time.end=0.4", "--set", "time.statistics_from=0.1", "--modes", "3"];
+    let study = [&["wear"], &case[..], &["--years", "0.1", "--histories", "1", "--force", "--out", "w"]].concat();
+    let (_, told) = said(dir.path(), &study, 0);
+    for words in ["the first window with half the step: work rate of support", "the first window with 6 modes in place"]
+    {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let (document, _) = said(dir.path(), &[&["--json"], &study[..]].concat(), 0);
+    let document: serde_json::Value = serde_json::from_str(&document).unwrap();
+    let rate = |modes: &str| {
+        let own = ["--modes", modes, "--no-verdict", "--no-report", "--force", "--out", "r"];
+        said(dir.path(), &[&["run"], &case[..5], &own].concat(), 0);
+        number(&rows(&dir.path().join("r/supports.csv"))[0], "work_rate_W")
+    };
+    let both = &document["truncation"]["work_rates"][0]["work_rate_w"];
+    for (found, modes) in [(&both[0], "3"), (&both[1], "6")] {
+        // The same runs; only statistics are written with all digits.
+        assert!((found.as_f64().unwrap() / rate(modes) - 1.0).abs() < 1e-12, "{both}");
+    }
+    let (_, told) = said(dir.path(), &[&study[..], &["--no-verdict"]].concat(), 0);
+    assert!(!told.contains("the first window with"), "{told}");
+    let page = fs::read_to_string(dir.path().join("w/report.html")).unwrap();
+    assert!(!page.contains("the first window with"));
+}

@@ -277,8 +277,8 @@ fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let turns: Vec<f64> = crossed.iter().filter(gone).map(|crossed| crossed.at).collect();
     let echoes = [Label::GrazingIn, Label::Fold];
     crossed.retain(|crossed| !echoes.contains(&crossed.label) || !among(&turns, crossed.at));
-    // Where a contact vanishes, or the flight before it, its entry and an exit coincide: the speed of
-    // the entry stands for that of the exit, and for the duration.
+    // Where a contact vanishes, or the flight before it, its entry and an exit coincide: the speed
+    // of the entry stands for that of the exit, and for the duration.
     let enters: Vec<(usize, f64)> = (crossed.iter().filter(gone))
         .filter(|crossed| kind(crossed.event) == Some(Kind::Enter))
         .map(|crossed| (crossed.event, crossed.at))

@@ -65,7 +65,7 @@ impl ChosenModes {
             tolerance: self.tolerance,
             reached: last.change.unwrap_or(f64::INFINITY),
             quantity,
-            modes: self.modes,
+            modes: last.modes,
         })
     }
 }

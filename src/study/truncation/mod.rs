@@ -13,6 +13,7 @@ pub use choose::{ChosenModes, MOST_CHOSEN, ModesLevel, choose_modes};
 
 use super::change::{Change, relative};
 use super::difference::error_length;
+use super::verdict::WorkRateVerdict;
 use crate::error::{Error, Result, Subject};
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
@@ -228,6 +229,8 @@ pub struct Truncation {
     /// One entry per wall, then per round support, in the scene's order; none of a slider, whose
     /// normal force is given.
     pub walls: Vec<WallTruncated>,
+    /// One entry per support: its work rate in the run and with more modes.
+    pub work_rates: Vec<WorkRateVerdict>,
     /// What the judge refutes in the run with more modes; if there is anything, this comparison is
     /// meaningless.
     pub findings: Vec<Finding>,
@@ -299,17 +302,27 @@ impl Truncation {
             displacement: change.displacement,
             length_m: error_length(scene, &against.trajectory),
             walls,
+            work_rates: WorkRateVerdict::between(&run.statistics, &against.statistics),
             findings: Vec::new(),
         }
     }
 
-    /// The largest change of any wall's impulse or peak, and the quantity it belongs to; in a scene
-    /// without walls, that of the displacement.
+    /// The largest change of any wall's impulse or peak, and of any support's work rate as a share
+    /// of the largest, and the quantity it belongs to; in a scene without walls, of the
+    /// displacement and of work rates.
     #[must_use]
     pub fn worst(&self) -> (f64, String) {
-        if self.walls.is_empty() {
-            return (self.displacement, "displacement".to_owned());
-        }
+        let most = self.work_rates.iter().flat_map(|one| one.work_rate_w).fold(0.0, f64::max);
+        let change = |one: &WorkRateVerdict| relative(one.work_rate_w, most);
+        let of_walls = match self.walls.is_empty() {
+            true => (self.displacement, "displacement".to_owned()),
+            false => self.worst_of_walls(),
+        };
+        let rates = self.work_rates.iter().map(|one| (change(one), format!("work rate of support {:?}", one.support)));
+        rates.fold(of_walls, |worst, rate| if rate.0 > worst.0 { rate } else { worst })
+    }
+
+    fn worst_of_walls(&self) -> (f64, String) {
         let parts = self.walls.iter().flat_map(|w| {
             let peak = if w.peak_force_n.iter().all(Option::is_some) {
                 "peak force"
@@ -332,6 +345,14 @@ impl fmt::Display for Truncation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [kept, more] = self.modes;
         write!(f, "with {more} of {} modes in place of {kept}", self.degrees_of_freedom)?;
+        self.write_walls(f)?;
+        WorkRateVerdict::hardest(&self.work_rates).into_iter().try_for_each(|support| write!(f, "; {support}"))
+    }
+}
+
+impl Truncation {
+    /// Writes what changes at the walls; without any, of the displacement.
+    fn write_walls(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.walls.is_empty() {
             return write!(f, " the displacement changes by {:.1e} m", self.displacement * self.length_m);
         }

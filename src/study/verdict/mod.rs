@@ -4,12 +4,13 @@
 mod words;
 
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::parallel::both;
 use crate::residual::{Finding, Refuted};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Stepper};
-use crate::statistics::{ContactSite, PlaceKind, Statistics};
+use crate::statistics::{ContactSite, PlaceKind, Statistics, WearStatistics};
 use crate::study::change::Change;
 use crate::study::difference::error_length;
 use crate::study::exact::{Replay, replay, stride};
@@ -20,6 +21,12 @@ use serde::Serialize;
 
 /// Cost of a verdict, in runs like the one it checks.
 pub const COST: f64 = 2.0;
+
+/// Most walls, and supports, that the text of a verdict names one by one.
+const MOST_NAMED: usize = 4;
+
+/// Values of motions that have parted are not alike to this share.
+const ALIKE: f64 = 1e-6;
 
 /// Motions whose displacements differ by more than this share of the gap have parted.
 const PARTED: f64 = 0.1;
@@ -100,6 +107,29 @@ pub struct Verdict {
     pub findings: Vec<Finding>,
 }
 
+impl WorkRateVerdict {
+    /// Those of all supports, by the statistics of a run and of its check.
+    pub(crate) fn between(run: &Statistics, check: &Statistics) -> Vec<Self> {
+        let both = run.wear.iter().zip(&check.wear);
+        let verdict = |(before, after): (&WearStatistics, &WearStatistics)| Self {
+            support: before.support.clone(),
+            work_rate_w: [before.work_rate_w, after.work_rate_w],
+            half_width_95_w: before.work_rate_half_width_95_w,
+        };
+        both.map(verdict).collect()
+    }
+
+    /// The ones with the largest work rates of `all`, as many as a text names.
+    pub(crate) fn hardest(all: &[Self]) -> Vec<&Self> {
+        let mut supports: Vec<&Self> = all.iter().collect();
+        if supports.len() > MOST_NAMED {
+            sort_by_number(&mut supports, |a| -a.work_rate_w[0]);
+            supports.truncate(MOST_NAMED);
+        }
+        supports
+    }
+}
+
 impl Verdict {
     /// Checks `run` of `scene`, made by `method` with the options `time`; `progress` is called with
     /// the time (s) that the check has reached.
@@ -148,14 +178,8 @@ impl Verdict {
         let change = Change::between(scene, pair.0, pair.1, horizon_s);
         let first = run.trajectory.time().get(1);
         let compared = first.is_some_and(|first| *first <= horizon_s * (1.0 + 1e-12));
-        let work_rates =
-            run.statistics.wear.iter().zip(&again.statistics.wear).map(|(before, after)| WorkRateVerdict {
-                support: before.support.clone(),
-                work_rate_w: [before.work_rate_w, after.work_rate_w],
-                half_width_95_w: before.work_rate_half_width_95_w,
-            });
         Ok(Self {
-            work_rates: work_rates.collect(),
+            work_rates: WorkRateVerdict::between(&run.statistics, &again.statistics),
             check,
             displacement: compared.then_some(change.displacement),
             length_m: error_length(scene, &again.trajectory),
@@ -178,7 +202,11 @@ impl Verdict {
     /// whole run are differences between two motions, and no errors of one.
     #[must_use]
     pub fn parts(&self) -> bool {
-        self.horizon_s < self.end_s * (1.0 - 1e-9) || self.displacement.is_some_and(|share| share > PARTED)
+        let rates = self.work_rates.iter().map(|support| support.work_rate_w);
+        let mut told = self.walls.iter().map(|wall| wall.impulse_n_s).chain(rates);
+        let differ = told.any(|[before, after]| (after - before).abs() > ALIKE * before.abs());
+        let ends = self.horizon_s < self.end_s * (1.0 - 1e-9);
+        self.displacement.is_some_and(|share| share > PARTED) || (ends && differ)
     }
 
     /// By how many contacts the check exceeds the run, all walls together.

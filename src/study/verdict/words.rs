@@ -1,15 +1,12 @@
 //! A refinement verdict in words.
 
-use super::{Check, Verdict, WallVerdict, WorkRateVerdict};
+use super::{Check, MOST_NAMED, Verdict, WallVerdict, WorkRateVerdict};
 use crate::order::sort_by_number;
 use crate::study::horizon::LARGEST_GROWTH;
 use std::fmt;
 
 /// Largest change that is told as a share.
 const MOST_SHARE: f64 = 0.5;
-
-/// Most walls that the text of a verdict names one by one.
-const MOST_NAMED: usize = 4;
 
 impl Verdict {
     /// The walls named in the text: all where they are few, else those with the largest impulses.
@@ -20,16 +17,6 @@ impl Verdict {
             walls.truncate(MOST_NAMED);
         }
         walls
-    }
-
-    /// The supports named in the text: those with the largest work rates.
-    fn hardest(&self) -> Vec<&WorkRateVerdict> {
-        let mut supports: Vec<&WorkRateVerdict> = self.work_rates.iter().collect();
-        if supports.len() > MOST_NAMED {
-            sort_by_number(&mut supports, |a| -a.work_rate_w[0]);
-            supports.truncate(MOST_NAMED);
-        }
-        supports
     }
 
     /// What the check changes in the impulses, as the rest of a sentence.
@@ -91,7 +78,7 @@ impl fmt::Display for Verdict {
                 self.contacts_gained()
             )?;
         }
-        self.hardest().into_iter().try_for_each(|support| write!(f, "; {support}"))
+        WorkRateVerdict::hardest(&self.work_rates).into_iter().try_for_each(|support| write!(f, "; {support}"))
     }
 }
 
@@ -187,7 +174,9 @@ mod tests {
         assert_eq!(said.displacement_words(), "changes by 2.6e-11 m up to t = 1.0000 s");
         assert!(!said.to_string().contains("part"));
         let parted = Verdict { displacement: Some(0.5), ..verdict(&[[1.0, 1.0]]) };
-        let beyond = Verdict { horizon_s: 0.5, ..verdict(&[[1.0, 1.0]]) };
+        let beyond = Verdict { horizon_s: 0.5, ..verdict(&[[1.0, 1.1]]) };
+        // Nothing moves, or alike to the end.
+        assert!(!Verdict { horizon_s: 0.5, ..verdict(&[[1.0, 1.0]]) }.to_string().contains("part"));
         assert!([parted, beyond].iter().all(|one| one.to_string().contains("the motions part")));
         assert!(!verdict(&[[1.0, 1.0]]).to_string().contains("part"));
         (said.displacement, said.horizon_s) = (None, 2e-5);
