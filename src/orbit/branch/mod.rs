@@ -9,8 +9,8 @@
 //! | grazing-out | v_i of an impact | orbits without that impact |
 //! | grazing-in | the least gap inside a flight | orbits with one more impact |
 //! | rest-begins, rest-ends | reaction of the wall at an arrival with e = 0 | orbits with a rest more or less |
-//! | contact-ends | speed at the end of a contact with an elastic wall | not followed |
-//! | corner | time between two events | not followed |
+//! | contact-ends | least force in a contact with an elastic wall, speed at its end | orbits with a contact or pause more or less |
+//! | corner | time between two events | of elastic walls, orbits with the two exchanged, or without the pause between them |
 //!
 //! det(M + 1) alone has a pole where v_i = 0. Both products are the determinant of the Jacobian of
 //! perturbations that come back with the other sign, which is analytic. A Neimark–Sacker
@@ -24,6 +24,7 @@
 
 mod arclength;
 mod curve;
+mod elastic;
 mod events;
 mod family;
 mod follow;
