@@ -14,7 +14,7 @@ use signorini::output::format::{Format, Formats};
 use signorini::output::results::Results;
 use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_journal::WindowJournal;
-use signorini::output::{sector_means, wear_history as output, wear_remarks};
+use signorini::output::{first_window, run_folder, sector_means, wear_history as output, wear_remarks};
 use signorini::report;
 use signorini::study::realisations::{KnownRealisations, Realisation, RealisationCount, RealisationStudy, checked};
 use signorini::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearWindow, WearingSupport};
@@ -57,13 +57,13 @@ pub fn _wear<'py>(
     let mut results = folder.map(open).transpose()?;
     let done = RunsDone::default();
     let work = || begun(case, (&plan, reason(case, scheme)), results.as_mut(), (within, verdict), &done);
-    let (first, window) = compute_beside(py, work, &mut |py| done.tell(counted.bind(py)))?;
+    let (first, window, checked) = compute_beside(py, work, &mut |py| done.tell(counted.bind(py)))?;
     let study = first.as_ref().map(|(study, _)| study);
     let histories = study.map_or(asked, |study| study.realisations.members.len());
     let members = study.map_or(window.as_slice(), |study| &study.realisations.members);
     let found = followed(py, case, &plan, (&supports, histories, service), (members, results.as_mut()), &progress)?;
     if let Some(results) = &mut results {
-        let written = wear_folder::write(results, case, (&found, histories), (study, &[]));
+        let written = wear_folder::write(results, case, (&found, histories), (study, &checked));
         written.and_then(|()| report::finish(results, true)).map_err(raise)?;
     }
     let mut known = wear_told(case, &plan, &found, histories);
@@ -75,22 +75,23 @@ pub fn _wear<'py>(
 type Noted = (RealisationStudy, Vec<String>);
 
 /// The study of the first windows, where one is asked for `within` an interval, with the notes that
-/// limit its use; and the first window, whose files are written into `results`. Without results
-/// nothing is known of it before the histories are followed.
+/// limit its use; and the first window, whose files are written into `results`, with what its check
+/// says. Without results nothing is known of it before the histories are followed.
 fn begun(
     case: &sg::case::Case,
     (plan, reason): (&Plan, String),
     results: Option<&mut Results>,
     (within, verdict): (Option<RealisationCount>, bool),
     done: &RunsDone,
-) -> sg::Result<(Option<Noted>, Vec<Realisation>)> {
+) -> sg::Result<(Option<Noted>, Vec<Realisation>, Vec<String>)> {
+    let written = results.is_some();
     let run = match results {
         Some(results) => {
             let mut first = done.begin(1);
             let mut progress = |time| first(time / case.scene.duration);
             wear_folder::first_window(results, case, (&plan.method, reason), true, &mut progress)?
         }
-        None if within.is_none() => return Ok((None, Vec::new())),
+        None if within.is_none() => return Ok((None, Vec::new(), Vec::new())),
         None => first_run((case, plan), None, done)?,
     };
     let study = |count| {
@@ -99,7 +100,12 @@ fn begun(
         let notes = cautions(&study, case);
         Ok((study, notes))
     };
-    Ok((within.map(study).transpose()?, vec![Realisation::of(1, &run)]))
+    // As the tool tells it on the page.
+    let told = (written && verdict && within.is_none()).then(|| {
+        let (step, modes) = run_folder::checks(case, (&run, &plan.method), &mut |_| {});
+        first_window::remarks(&step, modes.as_ref())
+    });
+    Ok((within.map(study).transpose()?, vec![Realisation::of(1, &run)], told.unwrap_or_default()))
 }
 
 /// So many histories over `service` seconds, whose first windows begin with those of `members`,

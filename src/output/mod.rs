@@ -48,7 +48,7 @@
 //! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
 //! | [`wear_remarks`] | when wear reaches a limit, and what its figures mean, in sentences |
-//! | [`wear_folder`], `first_window` | the folder of a study of wear, from which it goes on, and what a check of its first window says |
+//! | [`wear_folder`], [`first_window`] | the folder of a study of wear, from which it goes on, and what a check of its first window says |
 //! | [`wear_journal`] | `windows.journal`: what an interrupted study of wear has run |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
@@ -75,7 +75,7 @@ pub mod episodes;
 pub mod error_parts;
 pub use signorini_figure as figure;
 pub mod first_orbit;
-pub(crate) mod first_window;
+pub mod first_window;
 pub(crate) mod floors;
 pub mod format;
 pub(crate) mod journal;

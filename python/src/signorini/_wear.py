@@ -225,6 +225,8 @@ def wear(
         each history.
     verdict : bool
         With ``until_interval``: whether the errors of the work rates in the first gaps are found.
+        Else, with ``folder``: whether the page tells what half the step and more modes change in
+        those of the first window.
     folder : path, optional
         The files of ``signorini wear`` are kept there, with its page ``report.html`` and the first
         window of the first history in ``first-window``. The same call goes on after an
