@@ -34,9 +34,10 @@ W(γ)/(2πRw). With growth = \"shifted\" of the support its centre moves towards
 well; gaps of flats stay, or with growth = \"flats\" each flat recedes by its scar. The work rate W is
 that of a run with the gap of that time; its statistics begin at statistics_from. Under random loads
 several histories are followed, each run with seeds of its own.
-The first window is run with half the step and with more modes as well, and what that changes in its
-work rates is told: the years err alike. With --until-interval the first runs of the histories are a
-study of realisations, as that of `run --until-interval`, with the errors of the first work rates.
+The first window is run with half the step and with more modes as well, and what that changes in
+its work rates is told: the years err alike. With --until-interval the first runs of the histories
+are a study of realisations, as that of `run --until-interval`, with the errors of the first work
+rates.
 Writes history.csv (every history), years.csv (means with their 95 % intervals), sector-means.csv
 (where around each support it wears), wear.svg and, in first-window/, the files of the first run;
 for --until-interval also realisations.csv and errors.csv (the first runs). A study ends before its
@@ -100,7 +101,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     })?;
     let checks = (within.is_none() && verdict).then(|| {
         let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(COST);
-        ui.with_estimate("its checks", estimate, |bar| {
+        ui.with_estimate("checks of the first window", estimate, |bar| {
             run_folder::checks(&case, (&run, &method), &mut |time| bar.set_share(time / case.scene.duration))
         })
     });
