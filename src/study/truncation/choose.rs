@@ -1,6 +1,7 @@
 //! Chooses the number of modes.
 
-use super::{Truncation, Unreduced, reaches_all_walls};
+use super::unreduced::reaches_all_walls;
+use super::{Truncation, Unreduced};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::Reduction;
