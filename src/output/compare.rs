@@ -183,11 +183,11 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
         runs.flat_map(|(method, run)| ContactSite::all(&case.scene).map(move |site| (method.clone(), run, site)));
     csv::records(&results.place("compare-walls.csv")?, &columns, rows)
 }
-/// Largest force of all walls and round supports in the window, N: of elastic ones at an instant,
-/// of rigid ones the largest mean over a stretch, as in the tables of a run.
+/// Largest force of all walls and supports in the window, N: of elastic ones at an instant, of
+/// rigid ones the largest mean over a stretch, as in the tables of a run.
 pub(super) fn largest_force(run: &Run) -> Option<f64> {
     let walls = run.statistics.walls.iter().filter_map(|wall| wall.force_largest);
-    let supports = run.statistics.supports.iter().filter_map(|support| support.force.as_ref()?.largest);
+    let supports = run.statistics.supports.iter().filter_map(|support| support.force_largest);
     walls.chain(supports).map(|largest| largest.mean_n).reduce(f64::max)
 }
 

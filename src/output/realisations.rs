@@ -149,7 +149,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
              not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
             .to_owned(),
     }];
-    let averaged = !scene.supports.is_empty() || scene.walls.iter().any(|wall| wall.law.is_rigid());
+    let averaged = scene.walls.iter().any(|wall| wall.law.is_rigid());
     if averaged && study.estimates.iter().any(|one| one.measure == Measure::ForceLargest) {
         remarks.push(
             "the largest force at rigid walls and supports is the largest mean over any stretch of --force-averaging; \

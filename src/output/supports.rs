@@ -85,7 +85,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
 }
 
 fn largest(support: &Known<'_>) -> Option<LargestForce> {
-    support.contact.force?.largest
+    support.contact.force_largest
 }
 
 /// The kind of work rate of a support.

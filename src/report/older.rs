@@ -57,9 +57,9 @@ pub(super) fn conclusions(manifest: &Value) -> Value {
     }
 }
 
-/// Gives the walls of a run's `summary` their `force_largest` where an older version left that out:
-/// of an elastic wall the largest force of its contacts, of a rigid one the largest mean over a
-/// stretch. Returns a sentence that names the walls and supports of which the summary has neither.
+/// Gives the walls and supports of a run's `summary` their `force_largest` where an older version
+/// left that out: of an elastic wall the largest force of its contacts, of a rigid one and of a
+/// support the largest mean over a stretch. Returns a sentence that names the walls and supports of which the summary has neither.
 pub(super) fn complete_forces(summary: &mut Value) -> Option<String> {
     let mut lacking = Vec::new();
     let walls = summary.pointer_mut("/statistics/walls").and_then(Value::as_array_mut);
@@ -76,10 +76,15 @@ pub(super) fn complete_forces(summary: &mut Value) -> Option<String> {
             None => lacking.push(wall["wall"].to_string()),
         }
     }
-    for support in summary["statistics"]["supports"].as_array().into_iter().flatten() {
+    let supports = summary.pointer_mut("/statistics/supports").and_then(Value::as_array_mut);
+    for support in supports.into_iter().flatten() {
         let force = &support["force"];
-        if !force.is_null() && force.get("largest").is_none() {
-            lacking.push(support["support"].to_string());
+        if support.get("force_largest").is_some() || force.is_null() {
+            continue;
+        }
+        match force.get("largest").cloned() {
+            Some(largest) => support["force_largest"] = largest,
+            None => lacking.push(support["support"].to_string()),
         }
     }
     (!lacking.is_empty()).then(|| {

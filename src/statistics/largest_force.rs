@@ -1,13 +1,13 @@
-//! The largest force of a wall or support. Of an elastic wall it is that at an instant. Impacts
-//! have no largest force, but the impulse of a stretch of one length has a largest value, whatever
-//! the rows, the step and the scheme: of a rigid wall and of a support it is the largest mean over
-//! any such stretch.
+//! The largest force of a wall or support. Of an elastic one it is that at an instant. Impacts have
+//! no largest force, but the impulse of a stretch of one length has a largest value, whatever the
+//! rows, the step and the scheme: of a rigid one it is the largest mean over any such stretch.
 
+use crate::step::Contact;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// The largest mean of |force| over any stretch of one length within a window, or at an elastic
-/// wall the largest |force|.
+/// wall or support the largest |force|.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct LargestForce {
@@ -19,6 +19,33 @@ pub struct LargestForce {
     pub at_s: f64,
     /// The length, s; 0 for a force at an instant.
     pub averaged_over_s: f64,
+}
+
+/// The share of the largest force at an instant from which on the largest mean is near it.
+const NEARLY: f64 = 0.9;
+
+impl LargestForce {
+    /// The largest finite force of `contacts` up to the time `to` (s), at the middle of its contact;
+    /// of the last where several are equal.
+    pub(super) fn of_contacts<'a>(contacts: impl Iterator<Item = &'a Contact>, to: f64) -> Option<Self> {
+        let middle = |c: &Contact| 0.5 * (c.start + c.end.unwrap_or(to).min(to));
+        let peaks = contacts.filter_map(|c| Some((middle(c), c.peak_force?)));
+        let largest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));
+        largest.map(|(at_s, mean_n)| Self { mean_n, at_s, averaged_over_s: 0.0 })
+    }
+
+    /// That of an elastic wall or support, from its largest force at an `instant` and its largest
+    /// `mean`. The mean is larger, by more than rounding, only where several flats of a support
+    /// push at once; with no `instant` it is what remains.
+    pub(super) fn of_elastic(instant: Option<Self>, mean: Option<Self>) -> Option<Self> {
+        let (Some(peak), Some(stretch)) = (instant, mean) else { return instant.or(mean) };
+        if stretch.mean_n > (1.0 + 1e-9) * peak.mean_n {
+            return mean;
+        }
+        // Where the largest mean is nearly the largest force, that acts in its stretch.
+        let at_s = if stretch.mean_n >= NEARLY * peak.mean_n { stretch.at_s } else { peak.at_s };
+        Some(Self { at_s, ..peak })
+    }
 }
 
 /// Σ|p| up to an instant, before and after what acts at the instant itself, N s.

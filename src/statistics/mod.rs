@@ -176,7 +176,7 @@ impl Statistics {
             of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), &window)
         };
         let walls = scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect();
-        let supports = support::of_supports(scene, &by_wall, from);
+        let supports = support::of_supports(scene, &by_wall, &window);
         let Window { batches, periods, .. } = window;
         Self {
             from_s: from,
@@ -196,16 +196,15 @@ impl Statistics {
         for (index, wall) in self.walls.iter_mut().enumerate() {
             wall.force = forces.statistics(index, wall.contacts);
             if let Some(force) = wall.force {
-                let instant = wall.force_largest.filter(|_| force.rms_averaged_over_s.is_none());
-                // Where the largest mean is nearly the largest force, that acts in its stretch.
-                let near = instant.zip(force.largest).filter(|(peak, mean)| mean.mean_n >= NEARLY * peak.mean_n);
-                let at = near.map(|(peak, mean)| LargestForce { at_s: mean.at_s, ..peak });
-                wall.force_largest = at.or(instant).or(force.largest);
+                wall.force_largest = match force.rms_averaged_over_s {
+                    None => LargestForce::of_elastic(wall.force_largest, force.largest),
+                    Some(_) => force.largest,
+                };
             }
         }
         let contacts = |index: usize| self.supports.get(index).map_or(0, |support| support.contacts);
         let all = forces.of_supports(contacts);
-        self.supports.iter_mut().zip(all).for_each(|(support, force)| support.force = Some(force));
+        self.supports.iter_mut().zip(all).for_each(|(support, force)| support.add_force(force));
         let means = self.means();
         for (index, wall) in self.walls.iter().enumerate().filter(|(_, wall)| wall.has_mean()) {
             let place = || ContactPlace { name: wall.wall.clone(), kind: PlaceKind::Wall };
@@ -261,9 +260,6 @@ fn by_wall(contacts: &[Contact], walls: usize) -> Vec<Vec<&Contact>> {
     by_wall
 }
 
-/// The share of the largest force of an elastic wall from which on the largest mean is near it.
-const NEARLY: f64 = 0.9;
-
 fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallStatistics {
     let Window { from, length, .. } = *window;
     let to = from + length;
@@ -284,7 +280,6 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallSta
     let reaching = all.iter().filter(|c| c.end.is_none_or(|end| end >= from));
     let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
     let peaks = reaching.clone().filter_map(|c| Some((c.start, c.peak_force?)));
-    let middles = reaching.clone().filter_map(|c| Some((0.5 * (c.start + end(c)), c.peak_force?)));
     let [mut counts, mut times, mut powers, mut left, mut impulses] = [NO_SUMS; 5];
     for c in here.clone() {
         let k = window.index(c.start);
@@ -315,20 +310,13 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallSta
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),
         force: None,
-        force_largest: largest_of(middles),
+        force_largest: LargestForce::of_contacts(reaching.copied(), to),
         episode_peak_force_n: Summary::of(peaks.map(|(_, force)| force)),
         episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
         impact_power_w: per_time(arrived),
         arrived_less_departed_power_w: per_time(total(&mut here.map(lost))),
         half_width_95,
     }
-}
-
-/// The largest of `peaks` (middle of the episode, s; force, N), the last where several
-/// are equal.
-fn largest_of(peaks: impl Iterator<Item = (f64, f64)>) -> Option<LargestForce> {
-    let largest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));
-    largest.map(|(at_s, mean_n)| LargestForce { mean_n, at_s, averaged_over_s: 0.0 })
 }
 
 /// Half width of the 95 % interval of the mean of `peaks` (time at which the episode began, s;

@@ -21,6 +21,20 @@ pub struct SupportStatistics {
     pub episode_peak_force_n: Summary,
     /// The force over time; `None` where only the contacts are known.
     pub force: Option<SupportForce>,
+    /// Its largest normal force: of an elastic support at an instant, of a rigid one the largest
+    /// mean over a stretch, [`SupportForce::largest`]. At an instant it is that of one flat; where
+    /// the mean of several that push together is larger, it is that mean. `None` where nothing
+    /// pushed.
+    #[serde(default)]
+    pub force_largest: Option<LargestForce>,
+}
+
+impl SupportStatistics {
+    /// Adds the force over time.
+    pub(super) fn add_force(&mut self, force: SupportForce) {
+        self.force_largest = LargestForce::of_elastic(self.force_largest, force.largest);
+        self.force = Some(force);
+    }
 }
 
 /// The force of one support over the window.
@@ -190,14 +204,18 @@ impl SupportTally {
     }
 }
 
-/// The statistics of the supports of `scene`, from the contacts `by_wall` and the start `from` (s)
-/// of the window; without the force over time.
-pub(super) fn of_supports(scene: &Scene, by_wall: &[Vec<&Contact>], from: f64) -> Vec<SupportStatistics> {
+/// The statistics of the supports of `scene`, from the contacts `by_wall` in `window`; without the
+/// force over time.
+pub(super) fn of_supports(scene: &Scene, by_wall: &[Vec<&Contact>], window: &Window) -> Vec<SupportStatistics> {
+    let from = window.from;
     let support = |support: &Support| {
         let all = by_wall.get(support.walls.clone()).unwrap_or_default().iter().flatten();
+        let is_elastic = support.members(&scene.walls).all(|(_, wall)| !wall.law.is_rigid());
         let reaching = all.clone().filter(|c| c.end.is_none_or(|end| end >= from));
         SupportStatistics {
             support: support.name.clone(),
+            force_largest: LargestForce::of_contacts(reaching.clone().copied(), from + window.length)
+                .filter(|_| is_elastic),
             contacts: all.filter(|c| c.start >= from).count(),
             episode_peak_force_n: match reaching.map(|c| c.peak_force).collect::<Option<Vec<f64>>>() {
                 Some(peaks) => Summary::of(peaks.into_iter()),

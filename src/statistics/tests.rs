@@ -162,6 +162,30 @@ fn a_support_has_the_contacts_that_begin_in_the_window_and_the_forces_of_those_t
 }
 
 #[test]
+fn the_largest_force_of_an_elastic_support_is_at_an_instant_and_of_a_rigid_one_a_mean_over_a_stretch() {
+    let elastic = |scene: Scene| {
+        let walls = scene.walls.into_iter().map(|wall| wall.with_elasticity(1e3, 0.0)).collect();
+        Scene { walls, ..scene }
+    };
+    let contacts = [contact(0, 0.52, 0.58, Some(9.0)), contact(1, 0.7, 0.9, Some(2.0))];
+    let largest = |scene: &Scene, impulse: [f64; 2]| {
+        let mut forces = Forces::new(scene, 0.0, 0.1);
+        forces.observe(&step(0, [0.5, 0.6], &impulse, &[0.0; 2]));
+        let statistics = Statistics::new(scene, &contacts, 0.0).with_forces(&forces);
+        statistics.supports[0].force_largest.expect("a push")
+    };
+    // Means of 5 N over 0.1 s by one flat; of 5 N and 6 N by both.
+    let (rigid, springs) = (between_flats(1.0), elastic(between_flats(1.0)));
+    for (scene, impulse, expected, over) in
+        [(&rigid, [0.5, 0.0], 5.0, 0.1), (&springs, [0.5, 0.0], 9.0, 0.0), (&springs, [0.5, 0.6], 11.0, 0.1)]
+    {
+        let found = largest(scene, impulse);
+        assert!((found.mean_n - expected).abs() < 1e-12 && found.averaged_over_s == over, "{found:?}");
+        assert!((found.at_s - 0.55).abs() < 1e-12, "{found:?}");
+    }
+}
+
+#[test]
 fn a_round_wall_has_its_own_contacts_and_the_impulse_of_its_force() {
     let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
     let ring = Wall::round("ring", at.clone(), 1.0);

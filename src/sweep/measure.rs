@@ -92,8 +92,8 @@ pub enum Measure {
     /// ([`SupportForce`](crate::SupportForce)), at a wall by
     /// [`ForceStatistics`](crate::ForceStatistics).
     ForceRms,
-    /// The largest mean of that |force| over any stretch of `force_averaging`, N; see
-    /// [`LargestForce`](crate::LargestForce).
+    /// Largest |force|, N: at elastic walls and supports at an instant, at rigid ones the largest
+    /// mean over any stretch of `force_averaging`; see [`LargestForce`](crate::LargestForce).
     ForceLargest,
     /// Mean over episodes of the largest |force|, N, over those whose force is finite.
     PeakForceMean,

@@ -71,7 +71,7 @@ fn the_measures_of_supports_are_those_of_the_runs() {
                     (format!("friction_power_{word}_W"), Some(wear.friction_power_w)),
                     (format!("force_mean_{word}_N"), Some(force.mean_n)),
                     (format!("force_rms_{word}_N"), Some(force.rms_n)),
-                    (format!("force_largest_{word}_N"), force.largest.map(|largest| largest.mean_n)),
+                    (format!("force_largest_{word}_N"), support.force_largest.map(|largest| largest.mean_n)),
                 ];
                 assert!(force.largest.is_some(), "{name}: rigid supports have one as well");
                 if let Some(law) = case.archard(index) {
@@ -159,7 +159,7 @@ fn the_measures_of_a_row_are_those_of_the_run_with_its_values() {
                         (format!("impulse_{word}_N_s"), Some(force.impulse_n_s)),
                         (format!("force_mean_{word}_N"), Some(force.mean_n)),
                         (format!("force_rms_{word}_N"), Some(force.rms_n)),
-                        (format!("force_largest_{word}_N"), force.largest.map(|largest| largest.mean_n)),
+                        (format!("force_largest_{word}_N"), wall.force_largest.map(|largest| largest.mean_n)),
                         (format!("impulse_mean_{word}_N_s"), wall.episode_impulse_n_s.mean),
                         (format!("impulse_max_{word}_N_s"), wall.episode_impulse_n_s.max),
                         (format!("peak_force_max_{word}_N"), wall.episode_peak_force_n.max),

@@ -131,8 +131,9 @@ class SupportStatistics:
     ``work_rate`` is the work of wear ∫ F_n |v_t| dt per time, W, an upper figure where
     ``upper_figure`` is True (without friction); ``impact_share`` the share of it that impacts did.
     ``force_mean`` and ``force_rms`` are of the normal force and of the force vector, N,
-    ``force_largest`` the largest mean of the normal force over a stretch of ``force_averaging``, N,
-    around the time ``force_largest_at``, s, and ``peak_force`` its largest value at an instant, N,
+    ``force_largest`` the largest normal force, N, around the time ``force_largest_at``, s: of an
+    elastic support at an instant, of a rigid one the largest mean over a stretch of
+    ``force_averaging``; ``peak_force`` is that of one wall of it at an instant, N,
     None where an impact on a rigid support has no finite one. ``sliding_rate`` is the
     distance slid in contact per time, m/s, ``sliding_speed`` the mean speed while in contact, m/s,
     ``friction_power`` what friction takes out of the motion, W, and ``contact_time_ratio`` the share
@@ -188,7 +189,7 @@ def _statistics(known: dict[str, Any]) -> SupportStatistics:
 
     wear, contact = known["wear"], known["contact"]
     force = contact["force"]
-    largest = force and force["largest"]
+    largest = contact["force_largest"]
     fields = [("from_deg", "f8"), ("to_deg", "f8"), ("work_rate", "f8"), ("impulse_share", "f8")]
     keys = ("from_deg", "to_deg", "work_rate_w", "impulse_share")
     sectors = np.array([tuple(sector[key] for key in keys) for sector in wear["sectors"]], fields)

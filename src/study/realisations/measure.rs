@@ -31,8 +31,8 @@ pub enum Measure {
     WorkRate,
     /// What friction takes out of the motion per unit time, W; of supports with friction.
     FrictionPower,
-    /// Largest |force| in the window, N: of an elastic wall at an instant, of a rigid one and of a
-    /// support the largest mean over a stretch of
+    /// Largest |force| in the window, N: of an elastic wall or support at an instant, of a rigid
+    /// one the largest mean over a stretch of
     /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging). It grows with the
     /// window.
     ForceLargest,
@@ -184,7 +184,7 @@ impl Measure {
             Self::FrictionPower => {
                 wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None, None))
             }
-            Self::ForceLargest => Some(largest(force.largest)),
+            Self::ForceLargest => Some(largest(support.force_largest)),
             Self::ImpactShare => wear.and_then(|wear| Some((wear.impact_share?, None, None))),
             Self::SlidingRate => wear.map(|wear| (wear.sliding_m / seconds, None, None)),
             Self::Contacts => Some((support.contacts as f64, None, None)),
