@@ -10,8 +10,9 @@
 //! that several have, `command_line.rs` for lines as a shell takes them, `pipeline.rs` for what all
 //! commands share (the folder of results, the report, what is printed), `ui.rs` for stdout and
 //! stderr (`bar.rs` shows progress, `terminal.rs` breaks lines), `estimate.rs` says how long work
-//! will take, `realisations.rs` makes the study of realisations of `run` and `wear`, `values.rs`
-//! lists the values that shells complete (feature `cli`).
+//! will take (`run_time.rs` tries a run for that), `realisations.rs` makes the study of
+//! realisations of `run` and `wear`, `values.rs` lists the values that shells complete (feature
+//! `cli`).
 
 mod bar;
 mod case_args;
@@ -35,6 +36,7 @@ mod realisations;
 mod report;
 mod request;
 mod run;
+mod run_time;
 mod stability;
 mod sweep;
 mod terminal;

@@ -6,8 +6,8 @@ mod model;
 mod penalty;
 
 use super::case_args::CaseArgs;
-use super::estimate::{RunTime, run_time, time_in_words};
 use super::pipeline::Answer;
+use super::run_time::{RunTime, run_time, time_in_words};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;

@@ -7,8 +7,9 @@ mod shares;
 pub use args::Args;
 
 use super::command_line::command_line;
-use super::estimate::{GOES_ON, time_in_words};
+use super::estimate::GOES_ON;
 use super::pipeline::Answer;
+use super::run_time::time_in_words;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::output::request::program;
