@@ -24,6 +24,9 @@ pub(crate) const IMPACT_STEPS: u64 = 2;
 /// a lasting force.)
 const BLOW: f64 = 1e-2;
 
+/// A part shorter than this, of the longest one, ends no contact: its impulse may be rounding.
+const BRIEF: f64 = 1e-6;
+
 /// The least length of the parts, of the longest one, over which a round wall's mean force is told.
 const SHORT: f64 = 0.5;
 
@@ -216,12 +219,12 @@ impl Episodes {
         self.closed.clear();
         let over = |wall: usize| impulse[wall] - jump[wall];
         self.longest = self.longest.max(length);
-        if length > 0.0 {
+        if length > BRIEF * self.longest {
             let mut pushed = std::mem::take(&mut self.pushed);
             pushed.retain(|&wall| {
                 let pushes = over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length);
                 if !pushes {
-                    self.release(wall, [start, end]);
+                    self.release(wall, [start, end], rates(wall));
                 }
                 pushes
             });
@@ -239,6 +242,7 @@ impl Episodes {
                 (episode.last, episode.impulse) = (end, episode.impulse + over(wall).abs());
                 let force = over(wall).abs() / length;
                 episode.forces = [episode.forces[1], Some((0.5 * (start + end), force))];
+                episode.acceleration = (rates.struck - rates.before) / length;
                 episode.short = (episode.short.0 + over(wall).abs(), episode.short.1 + length);
                 // Along a circle a short part reflects what a long one has left across it.
                 if !round || episode.short.1 >= SHORT * longest {
@@ -274,16 +278,22 @@ impl Episodes {
         self.open[wall].get_or_insert(OpenEpisode::new(time, approach))
     }
 
-    /// Closes the episode of a wall that does not push in the part from `start` to `end` (s). Where
-    /// the last one did not end with an impact, its force vanished between the middle of that part
-    /// and of this one: where the straight line through its last two means does.
-    fn release(&mut self, wall: usize, [start, end]: [f64; 2]) {
+    /// Closes the episode of a wall that does not push in the part from `start` to `end` (s) with
+    /// these velocities. Where the last one did not end with an impact, its force vanished between
+    /// the middle of that part and of this one: where the straight line through its last two means
+    /// does. The velocity is linear over a part.
+    fn release(&mut self, wall: usize, [start, end]: [f64; 2], rates: Rates) {
+        let sign = self.side[wall].sign();
         if let Some(episode) = self.open[wall].as_mut().filter(|_| start > self.last_impact)
             && let [Some((before, more)), Some((middle, force))] = episode.forces
             && more > force
         {
             let vanishes = middle + force * (middle - before) / (more - force);
             episode.last = vanishes.clamp(middle, 0.5 * (start + end));
+            let now = (rates.struck - rates.before) / (end - start);
+            let acceleration = if episode.last < start { episode.acceleration } else { now };
+            let left = rates.before + acceleration * (episode.last - start);
+            episode.departure = (sign * left).max(0.0);
         }
         self.part(wall);
     }

@@ -65,3 +65,24 @@ fn the_first_two_steps_of_a_lasting_contact_are_no_force() {
     let [contact] = episodes.closed() else { panic!("{:?}", episodes.closed()) };
     assert_eq!((contact.impulse, contact.peak_force, contact.approach_speed), (-20.25, Some(1.0), 10.0));
 }
+
+#[test]
+fn a_part_too_short_to_push_ends_no_contact_and_a_longer_one_does() {
+    let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 1.0));
+    let h = 0.125;
+    let held = Rates { before: 0.0, struck: 0.0, after: 0.0 };
+    // Where sticking ends and sliding begins, a part of a step may take no more than rounding.
+    for (pause, contacts) in [(1e-9 * h, 1), (0.1 * h, 2)] {
+        let divided = Contract { divides: true, ..contract(None) };
+        let mut episodes = Episodes::new(&scene, &[1.0], divided);
+        let mut closed = 0;
+        let parts =
+            [([0.0, h], -h), ([h, h + pause], 0.0), ([h + pause, 2.0 * h], pause - h), ([2.0 * h, 3.0 * h], 0.0)];
+        for ([start, end], impulse) in parts {
+            let pushing: &[usize] = if impulse == 0.0 { &[] } else { &[0] };
+            episodes.observe_part([start, end], end - start, (&[impulse], &[0.0]), pushing, |_| held);
+            closed += episodes.closed().len();
+        }
+        assert_eq!(closed, contacts, "{pause:e}");
+    }
+}

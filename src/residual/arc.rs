@@ -1,5 +1,6 @@
 //! Checks of the exact motion of one degree of freedom.
 
+use super::deepest::deepest;
 use super::energy::{Along, Instants, stored};
 use super::quadrature::{nodes, panels};
 use super::row_walls::RowWalls;
@@ -26,6 +27,14 @@ impl Judge {
                 self.sample(arc, &mut at, &mut along);
                 let largest = along.end_panel(&at);
                 self.energy.reach(largest);
+            }
+            for index in arc.touching() {
+                let wall = &self.scene.walls[index];
+                let motion = |t: f64| {
+                    let (q, v) = arc.state(t);
+                    [-wall.gap(wall.row().dot(&[q])), -wall.side().sign() * wall.row().dot(&[v])]
+                };
+                self.walls.observe_depth(index, deepest([step.start, step.end], fastest.max(rate), motion));
             }
         }
         let open = self.energy.observe_arc(step, arc, &self.blows.impulse, &along);

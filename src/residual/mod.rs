@@ -12,7 +12,7 @@
 //! | `blow_check.rs`, `blows.rs` | loads of no duration |
 //! | `round.rs`, `brim.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs`, `place.rs` | round holes |
 //! | `friction.rs`, `pushes.rs`, `supports.rs` | friction, impulses in two planes, and what a run keeps of both |
-//! | `arc.rs`, `series.rs`, `series_scratch.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
+//! | `arc.rs`, `series.rs`, `series_scratch.rs`, `circle.rs`, `quadrature.rs`, `deepest.rs` | exact motion, of structures, in round holes; its integrals and depths |
 //! | `energy/` | the energy ledger |
 //! | `momentum_sums.rs`, `run_momentum.rs` | the momentum of a whole run |
 //! | `own_loads.rs` | the extra force of steps in which no caller adds one |
@@ -28,6 +28,7 @@ mod brim;
 mod circle;
 mod complementarity;
 mod corrected;
+mod deepest;
 mod disk;
 mod energy;
 mod extent;

@@ -20,7 +20,7 @@ pub struct Residuals {
     /// largest min(|ẇ_t|/v₀, |μp − friction|/r₀) of sliding and missing friction.
     pub complementarity: f64,
     /// Deepest position behind each wall, then behind each round hole, at the end of a step, m, ≥
-    /// 0, in the scene's order.
+    /// 0, in the scene's order; of exact motion behind elastic walls also within a step.
     pub depth_m: Vec<f64>,
     /// Deepest position behind a rigid wall or hole, m. In a run by `penalty` behind those that the
     /// scene calls rigid, whose springs give way.

@@ -4,6 +4,7 @@
 //! integrates powers, which have twice that rate, to 1e-20 of their size. If the fastest rate were
 //! underestimated, the energy ledger would not close.
 
+use super::deepest::deepest;
 use super::energy::{Ledger, Moved};
 use super::quadrature::{Panel, nodes};
 use super::{Judge, PLACE_UNITS};
@@ -93,6 +94,20 @@ impl Judge {
         }
         if self.supports.is_some() {
             self.follow_holes(step, series);
+        }
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            if wall.is_round()
+                || wall.law.is_rigid()
+                || series.contact_force(index, 0.5 * (step.start + step.end)) == 0.0
+            {
+                continue;
+            }
+            let (q, v) = (&mut self.series.q, &mut self.series.v);
+            let motion = |t: f64| {
+                series.state(t, q, v);
+                [-wall.gap(wall.row().dot(q)), -wall.side().sign() * wall.row().dot(v)]
+            };
+            self.walls.observe_depth(index, deepest([step.start, step.end], series.rate(), motion));
         }
         self.scale_by_dashpots(step.end - step.start);
         let (s, system) = (&mut self.series, &self.scene.system);

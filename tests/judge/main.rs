@@ -10,6 +10,7 @@ mod rubbing;
 mod blows;
 mod complementarity;
 mod contacts;
+mod depths;
 mod divergence;
 mod faults;
 mod findings;

@@ -45,19 +45,19 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64, touched: bool) ->
     notes
 }
 
-/// A note on a table that does not cover the whole run.
+/// A note on a table that does not cover the whole run, where that is not the end of a pulse.
 fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     let LoadKind::Table(table) = &load.kind else { return None };
     let (number, end) = (index + 1, scene.duration);
     let (first, last) = (*table.time().first()?, *table.time().last()?);
-    let starts = table.force().first().is_some_and(|force| *force != 0.0);
-    if last < end * (1.0 - 1e-9) {
+    let acts = |force: Option<&f64>| force.is_some_and(|force| *force != 0.0);
+    if last < end * (1.0 - 1e-9) && acts(table.force().last()) {
         return Some(format!(
-            "the table of load {number} ends at {last} s, before the run does at {end} s: from then on its \
-             force is 0"
+            "the table of load {number} ends at {last} s, before the run does at {end} s: from then on it is 0"
         ));
     }
-    (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
+    let starts = first > 0.0 && acts(table.force().first());
+    starts.then(|| format!("the table of load {number} begins at {first} s: before, it is 0"))
 }
 
 /// A note on a load that moves nothing: a blow after the end of the run, or a place without a

@@ -5,11 +5,22 @@ use crate::scene::{LoadKind, Scene};
 use crate::statistics::{Statistics, Unsettled};
 
 /// The note on means that are others in the beginning of the window than in the rest of it, told of
-/// the one that differs most; `None` where there are none, and without a load that goes on: a
-/// motion that dies away is no settled one.
+/// the one that differs most; `None` where there are none, without a load that goes on, since a
+/// motion that dies away is no settled one, and where a load acts in a part of the window alone: the
+/// motion under a blow or a pulse is what is asked for.
 pub(crate) fn unsettled(scene: &Scene, statistics: &Statistics) -> Option<String> {
     let lasts = |kind: &LoadKind| !matches!(kind, LoadKind::Constant { .. } | LoadKind::Impulse { .. });
-    if !scene.loads.iter().any(|load| lasts(&load.kind)) {
+    let window = statistics.from_s..statistics.to_s;
+    let passes = |kind: &LoadKind| match kind {
+        LoadKind::Impulse { time, .. } => window.contains(time),
+        LoadKind::Table(table) => [table.time().first(), table.time().last()]
+            .into_iter()
+            .flatten()
+            .any(|edge| *edge > window.start && *edge < window.end * (1.0 - 1e-9)),
+        LoadKind::Constant { .. } | LoadKind::Harmonic { .. } | LoadKind::Function(_) => false,
+    };
+    let kinds = || scene.loads.iter().map(|load| &load.kind);
+    if !kinds().any(lasts) || kinds().any(passes) {
         return None;
     }
     let share = |one: &Unsettled| {
