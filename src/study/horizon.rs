@@ -76,8 +76,9 @@ impl Growth {
 
     fn by_saltation(scene: &Scene) -> Result<Self> {
         let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
-        let mut product = Product::new(scene)?;
+        let (mut product, gap) = (Product::new(scene)?, scene.gap());
         let (mut time, mut products, mut speed) = (vec![0.0], vec![product.matrix().clone()], 0.0_f64);
+        let (start, mut way) = (scene.initial.q.first().copied().unwrap_or(0.0), 0.0_f64);
         while stepper.time() < scene.duration {
             let step = stepper.step()?;
             // A change that an impact makes grow has not grown before it.
@@ -85,6 +86,10 @@ impl Growth {
                 let [[a, b], [c, d]] = arc.propagator();
                 time.push(step.end);
                 products.push(DMatrix::from_row_slice(2, 2, &[a, b, c, d]) * product.matrix());
+            }
+            if let (Path::Exact(arc), None) = (step.path, gap) {
+                let within = |part: i32| arc.state(step.start + f64::from(part) / 4.0 * (step.end - step.start)).0;
+                way = (1..=4).map(within).fold(way, |most, q| most.max((q - start).abs()));
             }
             // Without a derivative the change may be anything from here on.
             let known = product.observe(&step).is_ok();
@@ -100,13 +105,14 @@ impl Growth {
                 product.restart();
             }
         }
-        let (length, speed) = (scene.gap_scale(), if speed > 0.0 { speed } else { 1.0 });
+        // Without a gap, as of a body that starts on a wall, the way that it goes is the length.
+        let length = if way > 0.0 { way } else { scene.gap_scale() };
+        let speed = if speed > 0.0 { speed } else { 1.0 };
         // Between far walls the free vibration relates speeds to displacements, not the gap: by the
         // gap a vibration without contact would grow.
         let [natural, _] = scene.system.frequencies();
-        // Without a gap, as of a body that starts on an elastic wall, the vibration on the wall
-        // does.
-        let pressed = if scene.gap().is_some() { natural } else { natural.hypot(stiffest(scene).sqrt()) };
+        // Without a gap the vibration on an elastic wall does.
+        let pressed = if gap.is_some() { natural } else { natural.hypot(stiffest(scene).sqrt()) };
         let rate = (speed / length).max(pressed);
         Ok(Self { time, factor: products.iter().map(|m| norm(m, rate)).collect(), source: Source::Saltation })
     }
