@@ -165,7 +165,7 @@ impl Builder<'_> {
         let sine = ["amplitude", "frequency", "phase"].into_iter().find_map(|key| base.span_of(key));
         let one = "expected file = \"motion.csv\", or amplitude (m/s^2) and frequency (Hz), or rms (m/s^2), from and \
                    to (Hz), or psd = [[Hz, (m/s^2)^2/Hz], ..]";
-        let of_file = ["time", "acceleration", "delimiter", "decimal", "scale"].into_iter();
+        let of_file = ["time", "acceleration", "delimiter", "decimal", "scale", "time_scale"].into_iter();
         if let (None, Some(at)) = (base.word("file"), of_file.filter_map(|key| base.span_of(key)).next()) {
             return Err(self.source.error(at, &format!("{owner}: base has no file that this key reads"), one));
         }

@@ -54,13 +54,17 @@ impl Builder<'_> {
             let expected = "another sign than the delimiter: delimiter = \";\" beside it";
             return Err(self.refuse(at, &format!("{owner}: decimal"), expected));
         }
-        let scale = table.number("scale").map_or(plain.scale, Spanned::into_inner);
-        match table.span_of("scale") {
-            Some(at) if !scale.is_finite() || scale == 0.0 => {
-                let expected = format!("a finite number other than 0: how many {unit} one unit of the column is");
-                Err(self.refuse(at, &format!("{owner}: scale"), &expected))
+        let factor = |key: &str, plain: f64, takes: fn(f64) -> bool, expected: &str| {
+            let x = table.number(key).map_or(plain, Spanned::into_inner);
+            match table.span_of(key) {
+                Some(at) if !takes(x) => Err(self.refuse(at, &format!("{owner}: {key}"), expected)),
+                _ => Ok(x),
             }
-            _ => Ok(TableColumns { time, force, delimiter, decimal, scale }),
-        }
+        };
+        let scale = format!("a finite number: how many {unit} one unit of the column is");
+        let scale = factor("scale", plain.scale, f64::is_finite, &scale)?;
+        let seconds = "a finite number above 0: how many s one unit of the column of times is";
+        let time_scale = factor("time_scale", plain.time_scale, |x| x.is_finite() && x > 0.0, seconds)?;
+        Ok(TableColumns { time, force, delimiter, decimal, scale, time_scale })
     }
 }

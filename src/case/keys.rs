@@ -269,8 +269,10 @@ pub(super) const LISTED: &[KeyEntry] = &[
         quotes", ""]),
     entry("load.table.delimiter", Word, "", ["`\",\"`", DELIMITER, ""]),
     entry("load.table.decimal", Word, "", ["`\".\"`", "\".\" or \",\"", "the delimiter"]),
-    entry("load.table.scale", Number, "", ["1", "a number other than 0: how many N one unit of the \
-        column is (1000 for kN, -1 to reverse the sign)", "0"]),
+    entry("load.table.scale", Number, "", ["1", "a number: how many N one unit of the column is \
+        (1000 for kN, -1 to reverse the sign)", ""]),
+    entry("load.table.time_scale", Number, "", ["1", "a number above 0: how many s one unit of the \
+        column of times is (1e-3 for ms); it stretches a pulse", UNORDINARY]),
     entry("load.random", Inline, "", ["", "a random force, see below: either `rms`, `from` and \
         `to`, or `psd`, or `file`", "a band without a multiple of 1/end; more than 2^24 rows (16 a \
         period)"]),
@@ -304,8 +306,10 @@ pub(super) const LISTED: &[KeyEntry] = &[
         column of accelerations, in quotes", ""]),
     entry("load.base.delimiter", Word, "", ["`\",\"`", DELIMITER, ""]),
     entry("load.base.decimal", Word, "", ["`\".\"`", "\".\" or \",\"", "the delimiter"]),
-    entry("load.base.scale", Number, "", ["1", "a number other than 0: how many m/s^2 one unit of \
-        the column is", "0"]),
+    entry("load.base.scale", Number, "", ["1", "a number: how many m/s^2 one unit of the column is",
+        ""]),
+    entry("load.base.time_scale", Number, "", ["1", "a number above 0: how many s one unit of the \
+        column of times is (1e-3 for ms); it stretches a pulse", UNORDINARY]),
     entry("load.base.walls", Word, "", ["`\"moving\"`", "\"moving\": walls move with the base, or \
         \"fixed\": they stay in space, and displacements are those in space", "`\"fixed\"` beside \
         `file`, `modes`; another word than the other bases"]),

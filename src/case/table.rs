@@ -18,11 +18,20 @@ pub struct TableColumns {
     pub decimal: char,
     /// Newtons in one unit of the force column.
     pub scale: f64,
+    /// Seconds in one unit of the column of times.
+    pub time_scale: f64,
 }
 
 impl Default for TableColumns {
     fn default() -> Self {
-        Self { time: "time_s".into(), force: "force_N".into(), delimiter: ',', decimal: '.', scale: 1.0 }
+        Self {
+            time: "time_s".into(),
+            force: "force_N".into(),
+            delimiter: ',',
+            decimal: '.',
+            scale: 1.0,
+            time_scale: 1.0,
+        }
     }
 }
 
@@ -47,7 +56,7 @@ impl TableColumns {
 
     fn is_plain(&self) -> bool {
         let plain = Self::default();
-        *self == Self { scale: self.scale, ..plain }
+        *self == Self { scale: self.scale, time_scale: self.time_scale, ..plain }
     }
 }
 
@@ -61,7 +70,7 @@ pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Tab
         .delimiter(u8::try_from(columns.delimiter).unwrap_or(b','))
         .from_reader(text.as_bytes());
     let (mut time, mut force) = (Vec::<f64>::new(), Vec::new());
-    let mut found: Option<Header> = None;
+    let (mut found, mut last): (Option<Header>, Option<f64>) = (None, None);
     let mut row = csv::StringRecord::new();
     loop {
         let from = usize::try_from(rows.position().byte()).unwrap_or(usize::MAX);
@@ -84,10 +93,18 @@ pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Tab
             return Err(reader.source.error(line, &title, &columns.expected()));
         }
         let t = reader.number(&line, &row, header.time, &columns.time)?;
-        if let Some(before) = time.last().filter(|before| t <= **before) {
-            let title = format!("{} is {t:?}", columns.time);
-            let at = reader.field(&line, header.time);
-            return Err(reader.source.error(at, &title, &format!("expected more than the row before, {before:?}")));
+        let at_time = |title: &str, help: &str| reader.source.error(reader.field(&line, header.time), title, help);
+        if let Some(before) = last.filter(|before| t <= *before) {
+            let help = format!("expected more than the row before, {before:?}");
+            return Err(at_time(&format!("{} is {t:?}", columns.time), &help));
+        }
+        last = Some(t);
+        let t = t * columns.time_scale;
+        if !t.is_finite() {
+            return Err(at_time(
+                &format!("{} times time_scale is {t:?}", columns.time),
+                "expected a finite number of s",
+            ));
         }
         let f = reader.number(&line, &row, header.force, &columns.force)? * columns.scale;
         if !f.is_finite() {

@@ -119,8 +119,8 @@ const WRONG: &[Wrong] = &[
     ("a letter for a delimiter", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", delimiter = \"x\" }", "19:40", &["load 1: table: delimiter", "\";\""]),
     ("a semicolon for a point", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", decimal = \";\" }", "19:38", &["load 1: table: decimal", "\",\""]),
     ("decimal commas between commas", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", decimal = \",\" }", "19:38", &["load 1: table: decimal", "delimiter = \";\" beside it"]),
-    ("a scale of nothing", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", scale = 0 }", "19:36", &["load 1: table: scale", "other than 0"]),
-    ("a scale that is no number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", scale = nan }", "19:36", &["load 1: table: scale", "other than 0"]),
+    ("times of no length", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", time_scale = 0 }", "19:36", &["load 1: table: time_scale", "above 0"]),
+    ("a scale that is no number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", scale = nan }", "19:36", &["load 1: table: scale", "a finite number"]),
     ("a column by number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", force = 2 }", "19:36", &["load.table.force", "header of the column of forces"]),
     ("an unknown key of a table", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", column = 2 }", "19:28", &["unknown key `column`", "delimiter"]),
     // Times.
@@ -278,6 +278,7 @@ fn a_measured_table_is_refused_at_its_own_place_with_what_would_read_it() {
             &["\"1.000,5\"", "decimal comma"],
         ),
         (", force = \"F\"", "time_s,F,F\n0,1,2\n1,2,3\n", "1:10", &["two columns", "\"F\"", "once"]),
+        (", time_scale = 1e300", "time_s,force_N\n0,1\n1e30,1\n", "3:1", &["times time_scale is inf"]),
         (", scale = 1e300", "time_s,force_N\n0,1\n1,1e30\n", "3:3", &["times scale is inf"]),
         (", force = \"F\"", "time_s,,F\n0,,1\n1,,x\n", "3:4", &["F is \"x\"", "decimal point"]),
         (", force = \"F\"", "time_s,a,F\n0,,1\n0,,2\n", "3:1", &["more than the row before"]),

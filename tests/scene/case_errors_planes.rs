@@ -400,7 +400,7 @@ const WRONG_LOADS: &[WrongLoad] = &[
     ("shaken without direction", "base = { file = \"no.csv\" }", "34:8", &["`direction` is missing in load 1", "in deg"]),
     ("shaken to nowhere", "direction = nan\nbase = { file = \"no.csv\" }", "34:13", &["load 1: direction", "finite"]),
     ("the influence of a tube", "direction = 0\nbase = { file = \"no.csv\", influence = { row = [[0, 1.0]] } }", "35:39", &["influence beside a beam", "matrices and modal data"]),
-    ("shaken times nothing", "direction = 0\nbase = { file = \"no.csv\", scale = 0 }", "35:35", &["load 1: base: scale", "m/s^2"]),
+    ("shaken times nothing", "direction = 0\nbase = { file = \"no.csv\", scale = inf }", "35:35", &["load 1: base: scale", "m/s^2"]),
 ];
 
 #[test]

@@ -292,6 +292,7 @@ fn a_measured_table_is_read_by_the_names_of_its_columns() {
     assert_eq!(table(&read), (vec![0.0, 0.5, 1.0], vec![-4.5, 2e-3, 0.25]));
     fs::write(folder.path().join("force.csv"), "force_N\ttime_s\n1\t0\n2\t1\n").unwrap();
     assert_eq!(table(&case(", delimiter = \"\\t\", scale = -1e3")), (vec![0.0, 1.0], vec![-1e3, -2e3]));
+    assert_eq!(table(&case(", delimiter = \"\\t\", scale = 0, time_scale = 0.5")), (vec![0.0, 0.5], vec![0.0; 2]));
     // A table with further columns besides the two is accepted.
     fs::write(folder.path().join("force.csv"), "time_s,force_N,note\n0,1,start\n1,2,end\n").unwrap();
     assert_eq!(table(&case("")), (vec![0.0, 1.0], vec![1.0, 2.0]));
