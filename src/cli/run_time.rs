@@ -58,6 +58,8 @@ pub(super) fn steps_in_words(scene: &Scene, method: &Method, step: f64) -> Strin
     if let System::Structure(_) = scene.system {
         let count = (0.5 * rate * scene.duration).ceil();
         format!("the exact scheme follows {what} in at least {count:.1e} stretches, and stops at every contact")
+    } else if rate == 0.0 {
+        "the exact scheme goes from contact to contact".to_owned()
     } else {
         let count = amount(rate * scene.duration / TAU, 2);
         format!("the exact scheme goes from contact to contact; {what} has {count} periods in the run")
