@@ -113,7 +113,7 @@ fn lasting_contacts(case: &Case, maps: &Maps, ui: &Ui) -> Result<Quality> {
         ui.with_estimate("contacts", estimate, |_| Quality::of(&case.scene, &schemes, &case.time, &maps.scale))?;
     for line in &quality.lines {
         if let Err(error) = &line.outcome {
-            ui.refute_failed(&format!("{}, h = {:.2e} s", line.scheme, line.step), error);
+            ui.refute_failed(&format!("{}, h = {:.2e} s", line.name, line.step), error);
         }
     }
     Ok(quality)
@@ -123,6 +123,8 @@ fn lasting_contacts(case: &Case, maps: &Maps, ui: &Ui) -> Result<Quality> {
 fn schemes(case: &Case) -> Vec<Scheme> {
     let mass = case.scene.wall_masses().into_iter().reduce(f64::min).unwrap_or(1.0);
     let stiffness = KAPPA * mass / (case.time.step * case.time.step);
+    // Without the digits of rounding.
+    let stiffness = format!("{stiffness:.6e}").parse().unwrap_or(stiffness);
     let own = case.penalty.laws.first().copied();
     let law = own.unwrap_or(PenaltyLaw::Linear { stiffness, damping: 0.0 });
     let scheme = |family| match family {
@@ -160,12 +162,12 @@ fn show_contacts(answer: &mut Answer, quality: &Quality) {
 fn failures(quality: &Quality) -> impl Iterator<Item = String> {
     quality.lines.iter().filter_map(|line| {
         let error = line.outcome.as_ref().err()?;
-        Some(format!("{}, h = {:.2e} s, failed: {error}", line.scheme, line.step))
+        Some(format!("{}, h = {:.2e} s, failed: {error}", line.name, line.step))
     })
 }
 
 fn contact_cells(line: &LastingForce) -> Vec<String> {
-    let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
+    let mut row = vec![line.name.clone(), format!("{:.2e}", line.step)];
     match &line.outcome {
         Err(_) => {
             row.resize(8, "-".to_owned());

@@ -102,7 +102,7 @@ pub fn stability(case: &Case, maps: &Maps, quality: &Quality) -> Value {
 fn lasting(line: &LastingForce) -> Value {
     let seen = line.outcome.as_ref().ok();
     json!({
-        "scheme": line.scheme.to_string(),
+        "scheme": line.name,
         "step_s": line.step,
         "largest_energy": seen.map(|s| s.largest),
         "last_energy": seen.map(|s| s.last),

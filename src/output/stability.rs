@@ -76,7 +76,7 @@ pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
     let contact = |line: &LastingForce| line.outcome.as_ref().ok().and_then(|seen| seen.contact.clone());
     let lasting = |line: &LastingForce, of: fn(&Lasting) -> f64| number(contact(line).map(|c| of(&c.1)));
     let columns: [csv::Column<'_, &LastingForce>; 12] = [
-        ("scheme", &|line| line.scheme.to_string()),
+        ("scheme", &|line| line.name.clone()),
         ("step_s", &|line| number(Some(line.step))),
         ("largest_energy", &|line| seen(line, |seen| seen.largest)),
         ("last_energy", &|line| seen(line, |seen| seen.last)),

@@ -7,6 +7,7 @@ use super::work_precision::label;
 use crate::order::sort_by_number;
 use crate::scheme::{Method, Scheme};
 use crate::study::stability::class::{FAST, LOSS, MISCOUNTED};
+use crate::study::stability::family::Parameter;
 use crate::study::stability::impact::ImpactMap;
 use crate::study::stability::plan::{Maps, Row};
 use serde_json::{Value, json};
@@ -24,7 +25,8 @@ pub struct StableStep {
     by_omega: Option<f64>,
     /// h²k_w/m at this step, for a penalty.
     kappa: Option<f64>,
-    /// Smallest and largest restitution of one free impact; for a penalty at h²k_w/m = 1.
+    /// Smallest and largest restitution of one free impact on a rigid wall; for a penalty at
+    /// h²k_w/m = 1. `None` without a rigid wall.
     restitution: Option<(f64, f64)>,
     /// The run with the smallest step that is not stable: its step (s), class and reason.
     beyond: Option<(f64, &'static str, String)>,
@@ -48,7 +50,7 @@ fn stable_step(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> StableStep {
         step,
         by_omega: step.map(|h| h * maps.scale.omega),
         kappa: step.and_then(|h| row.subject.kappa(&maps.scale, h)),
-        restitution: restitution(&scheme, impacts),
+        restitution: restitution(&scheme, impacts).filter(|_| row.subject.parameter != Parameter::WallStiffness),
         beyond: beyond.map(|cell| (cell.step, cell.class.name(), cell.reason.clone())),
     }
 }
@@ -115,11 +117,19 @@ pub fn conclusion(steps: &[StableStep]) -> String {
     format!("largest stable step: {}", parts.join(", "))
 }
 
+/// The column of restitutions.
+const IMPACT: &str = "impact on a rigid wall";
+
 /// The table for the terminal.
 #[must_use]
 pub fn table(steps: &[StableStep]) -> Table {
-    let headers = ["scheme", "largest stable step (s)", "hω", "h²k_w/m", "one free impact", "beyond it"];
-    Table::new(&headers, steps.iter().map(StableStep::line).collect())
+    let mut headers = vec!["scheme", "largest stable step (s)", "hω", "h²k_w/m", IMPACT, "beyond it"];
+    let mut rows: Vec<Vec<String>> = steps.iter().map(StableStep::line).collect();
+    if steps.iter().all(|one| one.restitution.is_none()) {
+        headers.retain(|name| *name != IMPACT);
+        rows.iter_mut().for_each(|row| drop(row.remove(row.len() - 2)));
+    }
+    Table::new(&headers, rows)
 }
 
 /// The rows as JSON.
@@ -145,7 +155,7 @@ impl StableStep {
         let short = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:.2e}"));
         vec![
             self.label.clone(),
-            self.step.map_or_else(|| "none".to_owned(), |h| format!("{h:.2e}")),
+            self.step.map_or_else(|| "none".to_owned(), |h| format!("{:.1e}", rounded_down(h))),
             short(self.by_omega),
             short(self.kappa),
             self.restitution.map_or_else(String::new, |range| format!("{}{at}", range_text(range))),

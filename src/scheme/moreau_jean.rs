@@ -49,9 +49,10 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     purpose: "the default in rigid round holes, with friction, and at springs for walls: impacts and lasting contact \
               at the least cost of a step (docs/holes.md)",
     order: Some(1),
-    fails: "order 1, at walls with a dashpot by chance more or less; penetrates by up to h v(1 − e/2); a body that \
-            comes to rest stays at the depth at which it arrived, and the contact force is too small by stiffness \
-            times that depth (reported); the body stands still when h v exceeds the gap (reported)",
+    fails: "order 1 (2 where all walls are springs without dashpots), at walls with a dashpot by chance more or less; \
+            penetrates by up to h v(1 − e/2); a body that comes to rest stays at the depth at which it arrived, and \
+            the contact force is too small by stiffness times that depth (reported); the body stands still when h v \
+            exceeds the gap (reported)",
     round: Coverage::Stepped(
         "lets rebound by the restitution what arrives, and reflects what only the turning of the normal adds",
     ),

@@ -15,6 +15,7 @@
 //! Pushes of one wall that follow one another within a thirty-second of the slowest period are one
 //! contact, since an oscillating force may vanish in between.
 
+use super::family::SchemeFamily;
 use super::scale::Scale;
 use crate::error::Result;
 use crate::run::{Options, Run, run};
@@ -84,6 +85,9 @@ pub fn lasting(impulse: &[f64], h: f64, joined: f64) -> Option<Lasting> {
 pub struct LastingForce {
     /// The scheme.
     pub scheme: Scheme,
+    /// Its name: of a penalty in a scene without rigid walls, which it would replace, that of its
+    /// integrator.
+    pub name: String,
     /// Its step, s; for the exact scheme, the spacing of its rows.
     pub step: f64,
     /// The measurements, or why there are none.
@@ -135,14 +139,19 @@ impl Quality {
         };
         let jobs: Vec<(Scheme, f64)> =
             schemes.iter().flat_map(|&s| MULTIPLES.iter().map(move |m| (s, m * time.step))).collect();
+        let rigid = scene.walls.iter().any(|wall| wall.law.is_rigid());
+        let name = |scheme: Scheme| match scheme {
+            Scheme::Penalty { integrator, .. } if !rigid => SchemeFamily::Penalty(integrator).to_string(),
+            _ => scheme.to_string(),
+        };
         let line = |&(scheme, step): &(Scheme, f64)| {
             let run = go(scheme, step);
             let step = run.as_ref().map_or(step, |run| run.grid.step);
-            LastingForce { scheme, step, outcome: run.map(|run| seen(&run, step, joined, energy)) }
+            LastingForce { scheme, name: name(scheme), step, outcome: run.map(|run| seen(&run, step, joined, energy)) }
         };
         let mut lines: Vec<LastingForce> = jobs.par_iter().map(line).collect();
         let outcome = exact.map(|run| seen(&run, run.grid.row_spacing(), joined, energy));
-        lines.push(LastingForce { scheme: Scheme::Event, step: finest, outcome });
+        lines.push(LastingForce { scheme: Scheme::Event, name: name(Scheme::Event), step: finest, outcome });
         Ok(Self { energy, lines })
     }
 }

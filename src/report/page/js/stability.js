@@ -10,23 +10,31 @@ const classTone = (word) => {
 /** A class of stability in its tone. */
 const classSwatch = (word) => swatch(word, () => `rgb(${classTone(word)})`);
 
+/** A step to two digits, and no more than it is. */
+function roundedDown(step) {
+  const unit = 10 ** (Math.floor(Math.log10(step)) - 1);
+  return Number((Math.floor(step / unit + 1e-9) * unit).toPrecision(2));
+}
+
 /** The largest stable step of each scheme, and what happens beyond it. */
 function stableSteps() {
   const { steps, conclusion, criterion } = DATA.stability;
   if (!steps) return;
-  const head = ["scheme", "largest stable step", "hω", "one free impact", "beyond it", "reason"];
+  const impact = "impact on a rigid wall";
+  const rigid = steps.some((row) => row.restitution);
+  const head = ["scheme", "largest stable step", "hω", impact, "beyond it", "reason"].filter((name) => rigid || name !== impact);
   const range = (e) =>
     !e ? "–" : e.largest - e.least < 1e-9 ? digits(e.least) : `${digits(e.least, 3)} to ${digits(e.largest, 3)}`;
   const line = (row) => {
     const { beyond, largest_stable_step_s: step } = row;
-    const longest = step ? `${beyond ? "" : "at least "}${prefixed(step, "s")}` : "none";
+    const longest = step ? `${beyond ? "" : "at least "}${prefixed(roundedDown(step), "s")}` : "none";
     return el(
       "tr",
       {},
       el("td", { title: row.scheme }, row.label),
       el("td", { class: step ? null : "none" }, el("b", {}, longest)),
       el("td", { "data-name": head[2] }, digits(row.largest_stable_step_times_omega, 3)),
-      el("td", { "data-name": head[3] }, range(row.restitution)),
+      rigid ? el("td", { "data-name": impact }, range(row.restitution)) : null,
       el("td", {}, beyond ? classSwatch(beyond.class) : "stable on the whole grid"),
       el("td", { class: beyond ? null : "none" }, beyond ? `${beyond.reason}, at ${prefixed(beyond.step_s, "s")}` : "–"),
     );
