@@ -93,28 +93,15 @@ pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Tab
             return Err(reader.source.error(line, &title, &columns.expected()));
         }
         let t = reader.number(&line, &row, header.time, &columns.time)?;
-        let at_time = |title: &str, help: &str| reader.source.error(reader.field(&line, header.time), title, help);
         if let Some(before) = last.filter(|before| t <= *before) {
-            let help = format!("expected more than the row before, {before:?}");
-            return Err(at_time(&format!("{} is {t:?}", columns.time), &help));
+            let title = format!("{} is {t:?}", columns.time);
+            let at = reader.field(&line, header.time);
+            return Err(reader.source.error(at, &title, &format!("expected more than the row before, {before:?}")));
         }
         last = Some(t);
-        let t = t * columns.time_scale;
-        if !t.is_finite() {
-            return Err(at_time(
-                &format!("{} times time_scale is {t:?}", columns.time),
-                "expected a finite number of s",
-            ));
-        }
-        let f = reader.number(&line, &row, header.force, &columns.force)? * columns.scale;
-        if !f.is_finite() {
-            let title = format!("{} times scale is {f:?}", columns.force);
-            return Err(reader.source.error(
-                reader.field(&line, header.force),
-                &title,
-                "expected a finite number of N",
-            ));
-        }
+        let t = reader.scaled(&line, header.time, (&columns.time, t), ("time_scale", columns.time_scale, "s"))?;
+        let f = reader.number(&line, &row, header.force, &columns.force)?;
+        let f = reader.scaled(&line, header.force, (&columns.force, f), ("scale", columns.scale, "N"))?;
         force.push(f);
         time.push(t);
     }
@@ -193,6 +180,22 @@ impl Reader<'_> {
                 Err(self.source.error_with_note(self.field(line, index), &title, &help, note.as_deref()))
             }
         }
+    }
+
+    /// The `number` of the column `name` times the `factor` that the key gives, in its unit.
+    fn scaled(
+        &self,
+        line: &Range<usize>,
+        index: usize,
+        (name, number): (&str, f64),
+        (key, factor, unit): (&str, f64, &str),
+    ) -> Result<f64> {
+        let x = number * factor;
+        if x.is_finite() {
+            return Ok(x);
+        }
+        let title = format!("{name} times {key} is {x:?}");
+        Err(self.source.error(self.field(line, index), &title, &format!("expected a finite number of {unit}")))
     }
 
     /// The position of field `index` of the row on `line`; the whole line where quotes prevent

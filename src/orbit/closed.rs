@@ -39,6 +39,10 @@ pub struct ClosedForm {
     pub speed: f64,
     /// Floquet multipliers over one orbit, real and imaginary parts, the largest first; 2n of them.
     pub multipliers: Vec<[f64; 2]>,
+    /// Whether the motion between the impacts stays in front of all walls, at instants a fortieth
+    /// of a radian of its fastest vibration apart; `None` where that are too many. For one degree
+    /// of freedom [`Problem::admissible`] says it exactly.
+    pub admissible: Option<bool>,
 }
 
 impl ClosedForm {
@@ -71,14 +75,24 @@ struct Linear {
     amplitude: DVector<Complex<f64>>,
     constant: DVector<f64>,
     omega: f64,
+    /// A.
+    generator: DMatrix<f64>,
     /// e^{AT/2}, T the forcing period.
     half: DMatrix<f64>,
 }
 
+/// An impact that an orbit consists of.
+struct Found {
+    phase: f64,
+    speed: f64,
+    multipliers: Vec<[f64; 2]>,
+    /// The free part of the state after it, the displacements first.
+    free: DVector<f64>,
+}
+
 /// All orbits of `scene` that strike one rigid wall once in 1 to `most` forcing periods, or each of
-/// two mirrored walls once in an odd number of them; for any number of degrees of freedom. Whether
-/// the motion passes a wall between the impacts is not checked here; for one degree of freedom
-/// [`Problem::admissible`] checks it.
+/// two mirrored walls once in an odd number of them; for any number of degrees of freedom. Those
+/// whose motion passes a wall between the impacts are among them, see [`ClosedForm::admissible`].
 ///
 /// # Errors
 /// [`Error::Invalid`] for a scene that does not validate, round walls, friction, loads other than
@@ -103,21 +117,25 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     }
     let linear = Linear::of(scene, TAU / period, period)?;
     let whole = &linear.half * &linear.half;
+    let orbit = |wall: usize, periods: u32, symmetric: bool, found: Found| {
+        let span = f64::from(periods) * period / if symmetric { 2.0 } else { 1.0 };
+        let admissible = linear.stays_in_front(scene, &found, span);
+        let Found { phase, speed, mut multipliers, .. } = found;
+        if symmetric {
+            multipliers.iter_mut().for_each(|one| *one = square(*one));
+        }
+        ClosedForm { wall, periods, symmetric, phase, speed, multipliers, admissible }
+    };
     let opposite = mirror(scene, period);
     let mut found = Vec::new();
     for (index, wall) in scene.walls.iter().enumerate() {
         let Some(restitution) = wall.law.restitution() else { continue };
         let (mut full, mut part) = (whole.clone(), linear.half.clone());
         for periods in 1..=most {
-            linear.solve(wall, restitution, &full, 1.0, &mut |phase, speed, multipliers| {
-                found.push(ClosedForm { wall: index, periods, symmetric: false, phase, speed, multipliers });
-            });
+            linear.solve(wall, restitution, &full, 1.0, &mut |one| found.push(orbit(index, periods, false, one)));
             // Each pair of walls is looked at once.
             if periods % 2 == 1 && opposite.as_ref().and_then(|of| of.get(index)).is_some_and(|other| index < *other) {
-                linear.solve(wall, restitution, &part, -1.0, &mut |phase, speed, multipliers| {
-                    let multipliers = multipliers.into_iter().map(square).collect();
-                    found.push(ClosedForm { wall: index, periods, symmetric: true, phase, speed, multipliers });
-                });
+                linear.solve(wall, restitution, &part, -1.0, &mut |one| found.push(orbit(index, periods, true, one)));
             }
             full = &full * &whole;
             if periods % 2 == 1 {
@@ -127,6 +145,17 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     }
     Ok(found)
 }
+
+/// The instants at which the motion between impacts is looked at are so many radians of its fastest
+/// vibration apart.
+const RADIANS: f64 = 0.025;
+
+/// A motion behind a wall by less than this share of the gap touches it: more than what it does
+/// between two instants, (0.025)²/8 of the vibration.
+const CLEAR: f64 = 1e-4;
+
+/// Most multiplications for the instants of one orbit.
+const MOST_WORK: f64 = 2e9;
 
 /// A speed below this share of those of the steady motion is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -182,20 +211,13 @@ impl Linear {
         a.view_mut((0, n), (n, n)).fill_with_identity();
         a.view_mut((n, 0), (n, n)).copy_from(&(-&inverse_mass * &stiffness));
         a.view_mut((n, n), (n, n)).copy_from(&(-&inverse_mass * &damping));
-        let half = (a * (0.5 * period)).exp();
-        Ok(Self { inverse_mass, damping, stiffness, still, steady, amplitude, constant, omega, half })
+        let half = (&a * (0.5 * period)).exp();
+        Ok(Self { inverse_mass, damping, stiffness, still, steady, amplitude, constant, omega, generator: a, half })
     }
 
-    /// Calls `take` with phase, speed and multipliers of each orbit whose flight has the propagator
-    /// `e` and ends where it began (`sign` 1) or in the mirror image (−1).
-    fn solve(
-        &self,
-        wall: &Wall,
-        restitution: f64,
-        e: &DMatrix<f64>,
-        sign: f64,
-        take: &mut dyn FnMut(f64, f64, Vec<[f64; 2]>),
-    ) {
+    /// Calls `take` with the impact of each orbit whose flight has the propagator `e` and ends
+    /// where it began (`sign` 1) or in the mirror image (−1).
+    fn solve(&self, wall: &Wall, restitution: f64, e: &DMatrix<f64>, sign: f64, take: &mut dyn FnMut(Found)) {
         let n = self.still.len();
         // The row towards the wall, and the gap in its direction.
         let toward = -wall.side().sign();
@@ -230,7 +252,8 @@ impl Linear {
             // The steady motion at the wall is Im(B e^{iΩt}), its velocity over Ω the real part.
             let angle = (gap - alpha * speed).atan2(slope * speed) - response.arg();
             let phase = (angle / TAU).rem_euclid(1.0);
-            take(phase, speed, self.multipliers(&row, &direction, restitution, e, sign, &w, speed, phase));
+            let multipliers = self.multipliers(&row, &direction, restitution, e, sign, &w, speed, phase);
+            take(Found { phase, speed, multipliers, free: (&w + &jump) * speed });
         }
     }
 
@@ -264,5 +287,35 @@ impl Linear {
         let mut values: Vec<[f64; 2]> = values.iter().map(|z| [z.re, z.im]).collect();
         sort_by_number(&mut values, |a| -a[0].hypot(a[1]));
         values
+    }
+
+    /// Whether the motion over `span` seconds after the impact stays in front of all walls of
+    /// `scene`; `None` where the instants are too many.
+    fn stays_in_front(&self, scene: &Scene, impact: &Found, span: f64) -> Option<bool> {
+        let n = self.still.len();
+        let [_, fastest] = scene.system.frequencies();
+        let count = (span * fastest.max(self.omega) / RADIANS).ceil().max(1.0);
+        if count * (2 * n).pow(2) as f64 > MOST_WORK {
+            return None;
+        }
+        let dt = span / count;
+        let (step, mut free) = ((&self.generator * dt).exp(), impact.free.clone());
+        let below = -CLEAR * scene.gap_scale();
+        let mut number = 1.0;
+        // The impact at the end is the orbit's own.
+        while number < count {
+            free = &step * free;
+            let turn = Complex::from_polar(1.0, TAU * impact.phase + self.omega * (number * dt));
+            let place = |i: usize| self.still[i] + (self.steady[i] * turn).im + free[i];
+            let behind = |wall: &Wall| {
+                let along: f64 = wall.row().entries().iter().map(|&(i, weight)| weight * place(i)).sum();
+                wall.gap(along) < below
+            };
+            if scene.walls.iter().any(behind) {
+                return Some(false);
+            }
+            number += 1.0;
+        }
+        Some(true)
     }
 }

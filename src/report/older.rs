@@ -59,7 +59,8 @@ pub(super) fn conclusions(manifest: &Value) -> Value {
 
 /// Gives the walls and supports of a run's `summary` their `force_largest` where an older version
 /// left that out: of an elastic wall the largest force of its contacts, of a rigid one and of a
-/// support the largest mean over a stretch. Returns a sentence that names the walls and supports of which the summary has neither.
+/// support the largest mean over a stretch. Returns a sentence that names the walls and supports of
+/// which the summary has neither.
 pub(super) fn complete_forces(summary: &mut Value) -> Option<String> {
     let mut lacking = Vec::new();
     let walls = summary.pointer_mut("/statistics/walls").and_then(Value::as_array_mut);

@@ -10,8 +10,8 @@ const TIME: f64 = 1e-8;
 /// Most steps of a search, which takes four to six.
 const MOST_STEPS: usize = 20;
 
-/// The largest depth (m) between two times (s) on a `motion` that gives the depth and the speed into
-/// the wall (m/s) at a time, and has no rate above `fastest` (rad/s).
+/// The largest depth (m) between two times (s) on a `motion` that gives the depth and the speed
+/// into the wall (m/s) at a time, and has no rate above `fastest` (rad/s).
 pub(super) fn deepest([from, to]: [f64; 2], fastest: f64, mut motion: impl FnMut(f64) -> [f64; 2]) -> f64 {
     let parts = (fastest * (to - from)).ceil().max(1.0);
     let [mut deepest, speed] = motion(from);

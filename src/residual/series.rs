@@ -95,24 +95,27 @@ impl Judge {
         if self.supports.is_some() {
             self.follow_holes(step, series);
         }
-        for (index, wall) in self.scene.walls.iter().enumerate() {
-            if wall.is_round()
-                || wall.law.is_rigid()
-                || series.contact_force(index, 0.5 * (step.start + step.end)) == 0.0
-            {
-                continue;
-            }
-            let (q, v) = (&mut self.series.q, &mut self.series.v);
-            let motion = |t: f64| {
-                series.state(t, q, v);
-                [-wall.gap(wall.row().dot(q)), -wall.side().sign() * wall.row().dot(v)]
-            };
-            self.walls.observe_depth(index, deepest([step.start, step.end], series.rate(), motion));
-        }
+        self.follow_depths(step, series);
         self.scale_by_dashpots(step.end - step.start);
         let (s, system) = (&mut self.series, &self.scene.system);
         system.add_damping(-1.0, &s.way, &mut s.net);
         system.add_stiffness(-1.0, &s.place, &mut s.net);
+    }
+
+    /// Notes the largest depth behind each elastic wall that pushes.
+    fn follow_depths(&mut self, step: &Step<'_>, series: &Series) {
+        let (span, middle) = ([step.start, step.end], 0.5 * (step.start + step.end));
+        let (q, v) = (&mut self.series.q, &mut self.series.v);
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            if wall.is_round() || wall.law.is_rigid() || series.contact_force(index, middle) == 0.0 {
+                continue;
+            }
+            let motion = |t: f64| {
+                series.state(t, q, v);
+                [-wall.gap(wall.row().dot(q)), -wall.side().sign() * wall.row().dot(v)]
+            };
+            self.walls.observe_depth(index, deepest(span, series.rate(), motion));
+        }
     }
 
     /// Notes the mean force of the dashpots over `span` seconds: without loads and springs it is

@@ -25,8 +25,8 @@ pub struct LargestForce {
 const NEARLY: f64 = 0.9;
 
 impl LargestForce {
-    /// The largest finite force of `contacts` up to the time `to` (s), at the middle of its contact;
-    /// of the last where several are equal.
+    /// The largest finite force of `contacts` up to the time `to` (s), at the middle of its
+    /// contact; of the last where several are equal.
     pub(super) fn of_contacts<'a>(contacts: impl Iterator<Item = &'a Contact>, to: f64) -> Option<Self> {
         let middle = |c: &Contact| 0.5 * (c.start + c.end.unwrap_or(to).min(to));
         let peaks = contacts.filter_map(|c| Some((middle(c), c.peak_force?)));

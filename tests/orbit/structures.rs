@@ -5,7 +5,7 @@ use crate::source::{near, only_of, source, values};
 use signorini::linear::Symmetric;
 use signorini::orbit::branch::{End, Graph, Label, Point, Request, Special, Switch, graph};
 use signorini::orbit::{Kind, Problem, Shot, closed_forms, shoot};
-use signorini::{Error, Load, Result, Row, Scene, Scheme, State, Stepper, Structure, Wall, WallLaw};
+use signorini::{Error, Face, Load, Result, Row, Scene, Scheme, Side, State, Stepper, Structure, Wall, WallLaw};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// `first`, a body of one degree of freedom (kg, N s/m, N/m), and beside it a second one that
@@ -387,4 +387,38 @@ fn orbits_that_repeat_after_a_graze_go_on_as_the_shorter_ones() {
         });
         assert!(orbit.phases.len() % 2 == 1 || orbit.signature.periods % 2 == 1 || !repeats, "{orbit:?}");
     }
+}
+
+#[test]
+fn orbits_in_closed_form_that_pass_a_wall_are_told() {
+    // Of these orbits those of two periods swing to 2.6 m, one of six to 1.0035 m, beyond the wall
+    // at 1 m (their motion as a sum of two modes, by another program).
+    let chain = signorini::Chain { masses: vec![1.0, 1.0], springs: vec![1.0], grounds: [1.0, 0.0] };
+    let stop = Wall {
+        face: Face::Flat { side: Side::Upper, position: 1.0, at: Row::dof(1), direction: None },
+        ..Wall::upper("stop", 1.0)
+    };
+    let scene = Scene::structure(chain.structure().unwrap())
+        .with_wall(stop)
+        .with_load(Load { at: Row::dof(0), ..Load::harmonic(1e-3, 0.12, 0.0) });
+    let forms = closed_forms(&scene, 8).unwrap();
+    let told: Vec<(u32, Option<bool>)> = forms.iter().map(|form| (form.periods, form.admissible)).collect();
+    let expected = [(1, true), (1, true), (2, false), (2, false), (6, false), (6, true)];
+    assert_eq!(told, expected.map(|(periods, holds)| (periods, Some(holds))));
+    // Of one degree of freedom the extremes of the motion are known.
+    let (mut holds, mut passes) = (0, 0);
+    for k in 0..40 {
+        let frequency = 0.2 + 0.11 * f64::from(k);
+        let scene = Scene::oscillator(1.0, 0.1, 100.0)
+            .with_wall(Wall::upper("upper", 4e-3).with_restitution(0.8))
+            .with_wall(Wall::lower("lower", -4e-3).with_restitution(0.8))
+            .with_load(Load::harmonic(3.0, frequency, 0.0));
+        let problem = Problem::new(scene).unwrap();
+        for form in closed_forms(problem.scene(), 6).unwrap() {
+            let exact = problem.admissible(&form.orbit(&problem)).unwrap().holds();
+            assert_eq!(form.admissible, Some(exact), "{frequency} Hz: {form:?}");
+            *(if exact { &mut holds } else { &mut passes }) += 1;
+        }
+    }
+    assert!(holds > 20 && passes > 20, "{holds} {passes}");
 }

@@ -15,11 +15,10 @@ const LISTED: u32 = 8;
 pub(super) fn list(case: &Case) -> Result<Answer> {
     let scene = &case.scene;
     let forms = closed_forms(scene, LISTED)?;
-    // With several degrees of freedom the motion between the impacts is not checked.
     let problem = Problem::new(scene.clone()).ok();
-    let holds = |form: &ClosedForm| {
-        let problem = problem.as_ref()?;
-        Some(problem.admissible(&form.orbit(problem)).ok()?.holds())
+    let holds = |form: &ClosedForm| match &problem {
+        Some(problem) => Some(problem.admissible(&form.orbit(problem)).ok()?.holds()),
+        None => form.admissible,
     };
     let found: Vec<_> = forms.into_iter().map(|form| (form.clone(), holds(&form))).collect();
     let mut answer = Answer::new(listed(&found, scene));
@@ -44,7 +43,7 @@ pub(super) fn list(case: &Case) -> Result<Answer> {
             match admissible {
                 Some(true) => "yes",
                 Some(false) => "no, passes a wall",
-                None => "not looked at",
+                None => "not looked at, too many instants",
             }
             .to_owned(),
         ]

@@ -6,8 +6,8 @@ use crate::statistics::{Statistics, Unsettled};
 
 /// The note on means that are others in the beginning of the window than in the rest of it, told of
 /// the one that differs most; `None` where there are none, without a load that goes on, since a
-/// motion that dies away is no settled one, and where a load acts in a part of the window alone: the
-/// motion under a blow or a pulse is what is asked for.
+/// motion that dies away is no settled one, and where a load acts in a part of the window alone:
+/// the motion under a blow or a pulse is what is asked for.
 pub(crate) fn unsettled(scene: &Scene, statistics: &Statistics) -> Option<String> {
     let lasts = |kind: &LoadKind| !matches!(kind, LoadKind::Constant { .. } | LoadKind::Impulse { .. });
     let window = statistics.from_s..statistics.to_s;
