@@ -58,6 +58,11 @@ pub fn whole(text: &str) -> Result<u64, &'static str> {
     text.parse().map_err(|_| "expected a whole number, 1 or more")
 }
 
+/// A number of a list.
+pub fn number(text: &str) -> Result<f64, &'static str> {
+    text.parse().map_err(|_| "expected numbers with commas between them, such as 0.743,0.033")
+}
+
 /// A format of pictures.
 pub fn formats() -> impl TypedValueParser<Value = Format> {
     PossibleValuesParser::new(Format::ALL.map(Format::name)).try_map(|name| name.parse::<Format>())

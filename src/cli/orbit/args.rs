@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::cli::case_args::CaseArgs;
 use crate::cli::pipeline::Destination;
+use crate::cli::values;
 use crate::error::{Error, Result, counted};
 use crate::orbit::{Orbit, Problem, SETTLE, Signature};
 use crate::output::periodic::read;
@@ -49,7 +50,8 @@ pub struct Args {
     #[arg(long, value_name = "EVENTS", requires = "start", conflicts_with_all = ["from", "settle"])]
     pub(super) signature: Option<String>,
     /// Phase (cycles) and speed (m/s) of each event of --signature
-    #[arg(long, value_name = "θ,v,…", value_delimiter = ',', requires = "signature", allow_hyphen_values = true)]
+    #[arg(long, value_name = "θ,v,…", value_delimiter = ',', value_parser = values::number, requires = "signature")]
+    #[arg(allow_hyphen_values = true)]
     pub(super) start: Vec<f64>,
     /// Forcing periods of the orbit of --signature
     #[arg(long, value_name = "N", default_value_t = 1, requires = "signature")]
