@@ -62,7 +62,7 @@ fn wall() -> impl Strategy<Value = WallLaw> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: draws::cases(150),
+        cases: draws::cases(80),
         rng_seed: RngSeed::Fixed(draws::seed(1)),
         failure_persistence: None,
         ..ProptestConfig::default()

@@ -52,7 +52,7 @@ fn halved(scene: &Scene) -> Scene {
 
 #[test]
 fn scenes_that_say_the_same_move_alike() {
-    let (first, cases) = (draws::seed(41_000_000), draws::cases(300_u64));
+    let (first, cases) = (draws::seed(41_000_000), draws::cases(150_u64));
     let (mut compared, mut apart) = (0_u64, 0_u64);
     for seed in first..first + cases {
         let drawn = random_scene(seed, Units::Ordinary);

@@ -218,9 +218,9 @@ fn every_scheme_keeps_its_contract_on_random_scenes() {
         Ok("wild") => Units::Wild,
         _ => Units::Ordinary,
     };
-    let (first, cases) = (draws::seed(1), draws::cases(400_u64));
+    let (first, cases) = (draws::seed(1), draws::cases(200_u64));
     let mut seeds: Vec<u64> = (first..first + cases).collect();
-    if units == Units::Ordinary && cases >= 400 {
+    if units == Units::Ordinary && cases >= 200 {
         seeds.extend(REFUTED_ONCE);
     }
     let (mut made, mut met, mut defects) = (0_u64, 0_u64, 0_u64);
