@@ -220,7 +220,7 @@ fn solved(run: &Run) -> String {
         _ if run.backend == Backend::Auto && counters.parts > 0 => {
             format!("{} contact problems in parts of steps, solved in sweeps", counters.qp_solves)
         }
-        _ if run.backend == Backend::Auto => format!("{} steps in contact, solved in sweeps", counters.qp_solves),
+        _ if run.backend == Backend::Auto => format!("{} contact problems, solved in sweeps", counters.qp_solves),
         _ if counters.qp_fallbacks > 0 => {
             let (all, left) = (counters.qp_solves, counters.qp_fallbacks);
             format!("{all} QPs by {}, {left} of them solved by Clarabel as fallback", run.backend)
