@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 /// Numbers of contacts and largest forces that differ by more than this share are told.
 const ALIKE: f64 = 0.1;
 
-/// A penalty that passes a rigid wall by this share of the gap does not see it.
+/// A penalty that passes a rigid wall by more than this share of the gap is told by that.
 const TOO_SOFT: f64 = 1.0;
 
 /// A method that has a result, and what became of it.
@@ -25,6 +25,8 @@ struct Judged {
     error: f64,
     agrees_until: f64,
     fate: Fate,
+    /// How far it passes rigid walls, as a share of the length of errors.
+    penetration: f64,
     /// Its contacts and its largest force beside those of the reference, where they differ.
     contacts: Option<String>,
 }
@@ -36,14 +38,14 @@ enum Fate {
     Agrees,
     /// Another motion.
     Departs,
-    /// Passes the walls as if there were none.
-    Unseen,
+    /// Passes the walls by more than the gap.
+    Passes,
     /// Breaks what its scheme promises.
     Refuted,
 }
 
-/// The sentence: the best of the methods that keep the walls as constraints, and the worst penalty.
-/// Without penalties the worst of the others, without others the best penalty.
+/// The sentence: the best of the methods that keep the walls as constraints, and the best and the
+/// worst penalty. Without penalties the worst of the others, without others the best penalty.
 #[must_use]
 pub fn conclusion(case: &Case, comparison: &Comparison) -> String {
     let reference = match (&comparison.reference, &comparison.refined) {
@@ -59,6 +61,8 @@ pub fn conclusion(case: &Case, comparison: &Comparison) -> String {
     };
     let others = || judged.iter().filter(|one| !std::ptr::eq(*one, best));
     let worst = others().filter(|one| one.penalty).max_by(by_error).or_else(|| others().max_by(by_error));
+    let nearest = others().filter(|one| one.penalty && !best.penalty).min_by(by_error);
+    let nearest = nearest.filter(|near| !worst.is_some_and(|worst| std::ptr::eq(*near, worst)));
     let (end, distance) = (end_of_prediction(case, comparison), |x| distance(case, comparison, x));
     let first = match (best.fate, end) {
         (Fate::Agrees, end) => {
@@ -68,9 +72,9 @@ pub fn conclusion(case: &Case, comparison: &Comparison) -> String {
         (Fate::Departs, Some(end)) => format!("{}, before {end}", best.becomes(&reference, &distance)),
         _ => best.becomes(&reference, &distance),
     };
-    let second = worst.map(|worst| match best.fate {
-        Fate::Refuted | Fate::Unseen => worst.becomes(&reference, &distance),
-        Fate::Agrees | Fate::Departs => worst.becomes("it", &distance),
+    let second = nearest.into_iter().chain(worst).map(|one| match best.fate {
+        Fate::Refuted | Fate::Passes => one.becomes(&reference, &distance),
+        Fate::Agrees | Fate::Departs => one.becomes("it", &distance),
     });
     std::iter::once(first).chain(best.contacts.clone()).chain(second).collect::<Vec<_>>().join("; ")
 }
@@ -96,12 +100,13 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
         }
         schemes.push(row.method.scheme);
         let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
-        let passes = penalty && run.residuals.penetration_m / length > TOO_SOFT;
-        let fate = fate(run, passes, error.is_nan() || error > AGREEMENT);
+        let penetration = run.residuals.penetration_m / length;
+        let fate = fate(run, penalty && penetration > TOO_SOFT, error.is_nan() || error > AGREEMENT);
         // The largest force of springs is that of an instant, at rigid walls it is a mean.
         let reference = comparison.reference_run().filter(|_| !penalty);
         let contacts = reference.and_then(|reference| other_contacts(run, reference));
-        judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate, contacts });
+        let name = name(&row.method);
+        judged.push(Judged { name, penalty, error, agrees_until: until, fate, penetration, contacts });
     }
     judged
 }
@@ -110,7 +115,7 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
 fn fate(run: &Run, passes: bool, departs: bool) -> Fate {
     match (run.findings.is_empty(), passes, departs) {
         (false, ..) => Fate::Refuted,
-        (_, true, _) => Fate::Unseen,
+        (_, true, _) => Fate::Passes,
         (.., true) => Fate::Departs,
         _ => Fate::Agrees,
     }
@@ -174,7 +179,7 @@ impl Judged {
         match self.fate {
             Fate::Agrees => format!("{name} agrees to {}", distance(self.error)),
             Fate::Departs => format!("{name} departs from {reference} at {} s", two_digits(self.agrees_until)),
-            Fate::Unseen => format!("{name} does not see the walls"),
+            Fate::Passes => format!("{name} passes the walls by {}", distance(self.penetration)),
             Fate::Refuted => format!("{name} is refuted"),
         }
     }

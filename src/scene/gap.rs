@@ -84,6 +84,12 @@ impl Scene {
         1e-12 * self.gap_scale()
     }
 
+    /// The largest |position| of a flat wall that is not far, m; 0 without one. A far wall, one at
+    /// 1e10 m in place of none, has no part in the rounding of gaps at the others.
+    pub(crate) fn farthest_near_wall(&self) -> f64 {
+        largest(self.near_walls(&self.initial.q).iter().map(|(wall, _)| wall.position().abs())).unwrap_or(0.0)
+    }
+
     /// The walls that are not far, with their distance from the displacement `q` (m), which is 0
     /// where it is on the wall.
     fn near_walls(&self, q: &[f64]) -> Vec<(&Wall, f64)> {

@@ -3,7 +3,7 @@
 
 use signorini::Contact;
 use signorini::scheme::event::Event;
-use signorini::{Load, Scene, Wall};
+use signorini::{Load, Options, Scene, Scheme, Wall};
 
 /// State at a given time: (time s, displacement m, velocity m/s).
 type Reference = (f64, f64, f64);
@@ -213,4 +213,27 @@ fn one_second_strides_and_none_give_one_motion() {
         ends.push(event.q()[0]);
     }
     assert!(ends.iter().all(|q| (q - ends[0]).abs() < 1e-15), "{ends:?}");
+}
+
+#[test]
+fn a_wall_that_is_out_of_reach_changes_nothing_however_far_it_is() {
+    let scene = Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::lower("lower", -1e-3).with_restitution(0.5))
+        .with_load(Load::harmonic(3.0, 5.0, 0.0))
+        .with_duration(1.0);
+    let made = |scene: &Scene| {
+        let run = signorini::run(scene, &Scheme::Event, &Options::with_step(1e-3)).unwrap();
+        assert_eq!(run.findings, []);
+        let contacts = run.trajectory.contacts().iter().map(|c| (c.start, c.impulse)).collect::<Vec<_>>();
+        (run.trajectory.displacement().to_vec(), contacts)
+    };
+    let (motion, contacts) = made(&scene);
+    assert!(contacts.len() > 1);
+    for position in [1.0, 1e4, 1e8, 1e10, 1e12, 1e18] {
+        let (beside, others) = made(&scene.clone().with_wall(Wall::upper("far", position).with_restitution(0.5)));
+        assert_eq!(others.len(), contacts.len(), "{position:e} m");
+        // Rounding of 1e-3 m, which the impacts make grow.
+        let off = motion.iter().zip(&beside).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-14, "{position:e} m: {off:e}");
+    }
 }

@@ -54,7 +54,7 @@ pub struct Event {
     barriers: Vec<ExactWall>,
     /// True if a wall is elastic.
     soft: bool,
-    /// The largest distance of a wall from the origin, m.
+    /// The largest distance of a near wall from the origin, m.
     farthest: f64,
     /// Between the walls, while the body is in front of all of them.
     room: Option<GapBounds>,
@@ -115,7 +115,7 @@ impl Event {
         let q = scene.initial.q.first().copied().unwrap_or(0.0);
         let v = scene.initial.v.first().copied().unwrap_or(0.0) + forcing.initial_impulse() / body.mass;
         let walls = barriers.len();
-        let farthest = barriers.iter().map(|b| b.position.abs()).fold(0.0, f64::max);
+        let farthest = scene.farthest_near_wall();
         let arc = Arc::new(body, walls, &forcing);
         // Blows at t = 0 are part of the initial state.
         let blow = forcing.impulses.partition_point(|blow| blow.0 <= 0.0);
