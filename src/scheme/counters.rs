@@ -1,5 +1,6 @@
 //! Counters of the work of a run.
 
+use crate::qp::SolverCounters;
 use serde::{Deserialize, Serialize};
 
 /// The work of a run, in units that do not depend on the machine.
@@ -40,4 +41,13 @@ pub struct Counters {
     pub largest_turn_rad: f64,
     /// Steps of moreau-jean through stretches of impacts that the exact scheme cannot resolve.
     pub handed_steps: u64,
+}
+
+impl Counters {
+    /// Adds what programmes have cost a solver, but for their number.
+    pub(crate) fn add_work(&mut self, solver: &SolverCounters) {
+        self.interior_point_iterations += solver.iterations;
+        self.pivots += solver.pivots;
+        self.qp_fallbacks += solver.fallbacks;
+    }
 }

@@ -267,9 +267,12 @@ impl<S: Space> Programme<S> {
     pub fn count(&self, counters: &mut Counters) {
         let inner = self.solver.counters();
         counters.qp_solves += inner.solves - inner.free;
-        counters.interior_point_iterations += inner.iterations;
-        counters.pivots += inner.pivots;
-        counters.qp_fallbacks += inner.fallbacks;
+        counters.add_work(&inner);
+    }
+
+    /// The work that the solver has done.
+    pub fn solver_counters(&self) -> qp::SolverCounters {
+        self.solver.counters()
     }
 }
 

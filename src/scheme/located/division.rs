@@ -139,7 +139,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
     /// Adds the work that the division has cost.
     pub fn count(&self, counters: &mut Counters) {
         self.contacts.count(counters);
-        counters.qp_solves += self.part.solves;
+        self.part.count(counters);
         (counters.parts, counters.steps_given_up) = (self.parts, self.given_up);
     }
 

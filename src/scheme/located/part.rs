@@ -1,5 +1,6 @@
 //! One part of a step: the θ-rule over a length of its own.
 
+use super::super::Counters;
 use super::super::body::Body;
 use super::super::space::{Solve, Space, zero};
 use crate::error::Result;
@@ -56,8 +57,8 @@ pub(super) struct Part<S: Space> {
     /// The change of the velocity, m/s.
     pub delta: S::Vector,
     pub pushes: Vec<Push>,
-    /// Programmes solved.
-    pub solves: u64,
+    /// The programmes solved, and their work.
+    work: Counters,
 }
 
 impl<S: Space> Part<S> {
@@ -76,8 +77,16 @@ impl<S: Space> Part<S> {
             column: vector(),
             delta: vector(),
             pushes: Vec::with_capacity(scene.walls.len()),
-            solves: 0,
+            work: Counters::default(),
         })
+    }
+
+    /// Adds what the parts have cost.
+    pub fn count(&self, counters: &mut Counters) {
+        counters.qp_solves += self.work.qp_solves;
+        counters.interior_point_iterations += self.work.interior_point_iterations;
+        counters.pivots += self.work.pivots;
+        counters.qp_fallbacks += self.work.qp_fallbacks;
     }
 
     /// Rounding error of the velocity of a wall's row, m/s.
@@ -130,7 +139,7 @@ impl<S: Space> Part<S> {
         if if hold.upper { beyond <= 0.0 } else { beyond >= 0.0 } {
             return;
         }
-        self.solves += 1;
+        self.work.qp_solves += 1;
         self.column.as_mut().fill(0.0);
         S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.column);
         S::solve(&mut self.factor, &mut self.column);
@@ -144,7 +153,7 @@ impl<S: Space> Part<S> {
 
     /// Computes δ and the impulses from b as a programme.
     fn solve(&mut self, body: &Body<S>, st: f64, holds: &[VelocityBound]) -> Solution {
-        self.solves += 1;
+        self.work.qp_solves += 1;
         let rows = holds.iter().filter_map(|hold| self.rows.get(hold.wall)).map(Row::entries);
         let compliance = holds.iter().map(|hold| hold.compliance).collect();
         let problem = Problem { a: body.theta_matrix_over(st), g: Rows::new(body.n, rows), compliance };
@@ -154,7 +163,9 @@ impl<S: Space> Part<S> {
         };
         let (lo, hi) = (bound(false, f64::NEG_INFINITY), bound(true, f64::INFINITY));
         let all: Vec<usize> = (0..holds.len()).collect();
-        solver.solve(&self.b, (&lo, &hi), &all)?;
+        let solved = solver.solve(&self.b, (&lo, &hi), &all);
+        self.work.add_work(&solver.counters());
+        solved?;
         self.delta.clone_from(solver.x());
         let impulses = holds.iter().zip(solver.multiplier().unwrap_or_default());
         let push = |(hold, &impulse): (&VelocityBound, &f64)| Push {

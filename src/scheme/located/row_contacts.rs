@@ -265,5 +265,6 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
 
     fn count(&self, counters: &mut Counters) {
         counters.qp_solves += self.impacts;
+        counters.add_work(&self.law.solver_counters());
     }
 }
