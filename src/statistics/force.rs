@@ -3,7 +3,7 @@
 use super::batch::{BATCHES, BatchSums, NO_SUMS, Window};
 use super::largest_force::{LargestForce, LargestStretch};
 use super::settling::Beginning;
-use super::step_force::{Piece, impulse, piece};
+use super::step_force::{impulse, impulse_and_square, largest_force};
 use super::support::{SupportForce, SupportTally};
 use crate::scene::Scene;
 use crate::step::{Contact, Path, Step};
@@ -64,6 +64,9 @@ struct Tally {
     carried: Carried,
 }
 
+/// Rounding of the times at which steps and intervals end and begin, as a share of them.
+const ROUNDING: f64 = 1e-14;
+
 /// The part in the window of a contact that began before.
 #[derive(Debug, Clone, Copy)]
 struct Carried {
@@ -74,11 +77,14 @@ struct Carried {
 }
 
 impl Carried {
-    /// Adds the force between two times (s), at most `force` (N).
-    fn add(&mut self, [from, to]: [f64; 2], force: f64) {
-        if from <= self.until {
-            (self.until, self.largest) = (to, self.largest.max(force));
-        }
+    /// True if what the wall gives from `from` (s) on follows without a pause longer than rounding.
+    fn goes_on(&self, from: f64) -> bool {
+        from <= self.until * (1.0 + ROUNDING)
+    }
+
+    /// Adds the force up to `to` (s), at most `force` (N).
+    fn add(&mut self, to: f64, force: f64) {
+        (self.until, self.largest) = (to, self.largest.max(force));
     }
 }
 
@@ -153,9 +159,12 @@ impl Forces {
             let to = edge.min(end);
             for wall in 0..self.walls.len() {
                 if step.impulse[wall] != 0.0 {
-                    let Piece { impulse, square, largest } = piece(step, wall, [from, to]);
+                    let (impulse, square) = impulse_and_square(step, wall, [from, to]);
                     self.add(wall, impulse, square);
-                    self.walls[wall].carried.add([from, to], largest);
+                    let Tally { rigid, carried, .. } = &mut self.walls[wall];
+                    if !*rigid && carried.goes_on(from) {
+                        carried.add(to, largest_force(step, wall, [from, to]));
+                    }
                 }
             }
             self.stretch(step, [from, to]);

@@ -25,10 +25,10 @@ pub struct LargestForce {
 const NEARLY: f64 = 0.9;
 
 impl LargestForce {
-    /// The largest finite force of `contacts` up to the time `to` (s), at the middle of its
-    /// contact; of the last where several are equal.
-    pub(super) fn of_contacts<'a>(contacts: impl Iterator<Item = &'a Contact>, to: f64) -> Option<Self> {
-        let middle = |c: &Contact| 0.5 * (c.start + c.end.unwrap_or(to).min(to));
+    /// The largest finite force of `contacts` between two times (s), at the middle of its contact;
+    /// of the last where several are equal.
+    pub(super) fn of_contacts<'a>(contacts: impl Iterator<Item = &'a Contact>, [from, to]: [f64; 2]) -> Option<Self> {
+        let middle = |c: &Contact| 0.5 * (c.start.max(from) + c.end.unwrap_or(to).min(to));
         let peaks = contacts.filter_map(|c| Some((middle(c), c.peak_force?)));
         let largest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));
         largest.map(|(at_s, mean_n)| Self { mean_n, at_s, averaged_over_s: 0.0 })

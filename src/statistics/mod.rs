@@ -310,7 +310,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallSta
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),
         force: None,
-        force_largest: LargestForce::of_contacts(reaching.copied(), to),
+        force_largest: LargestForce::of_contacts(reaching.copied(), [from, to]),
         episode_peak_force_n: Summary::of(peaks.map(|(_, force)| force)),
         episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
         impact_power_w: per_time(arrived),

@@ -19,38 +19,55 @@ fn even_force(step: &Step<'_>, wall: usize) -> f64 {
     (step.impulse[wall] - step.jump[wall]) / (step.end - step.start)
 }
 
-/// What a wall gives over a piece of a step, without the jump at its end.
-pub(super) struct Piece {
-    /// N s.
-    pub impulse: f64,
-    /// ∫ of the squared force, N² s.
-    pub square: f64,
-    /// The largest |force|, N: of exact motion at instants a quarter of a radian apart or less.
-    pub largest: f64,
-}
-
-/// What wall number `wall` gives between two times in a step (s).
-pub(super) fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> Piece {
+/// The impulse of wall number `wall` between two times in a step (s), N s, and ∫ of its squared
+/// force, N² s, without the jump at its end.
+pub(super) fn impulse_and_square(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
     let whole = impulse(step, wall, [from, to]);
-    let rate = match step.path {
-        Path::Exact(arc) => arc.fastest_motion(),
-        Path::Series(series) => series.rate(),
-        Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
-            let force = even_force(step, wall);
-            return Piece { impulse: whole, square: force * force * (to - from), largest: force.abs() };
-        }
+    let Some(parts) = parts(step, [from, to]) else {
+        let force = even_force(step, wall);
+        return (whole, force * force * (to - from));
     };
-    // Each part is half a radian of the fastest motion, so one radian of the squared force.
-    let parts = ((to - from) * rate * 2.0).ceil().clamp(1.0, 1e6);
     let span = (to - from) / parts;
     let force = |part: f64, node: f64| step.path.contact_force(wall, from + span * (part + node));
-    let (mut square, mut largest) = (0.0, 0.0_f64);
-    let mut part = 0.0;
+    let (mut square, mut part) = (0.0, 0.0);
     while part < parts {
         let forces = GAUSS.map(|node| force(part, node));
         square += (forces[0] * forces[0] + forces[1] * forces[1]) * 0.5 * span;
-        largest = forces.iter().fold(largest, |largest, force| largest.max(force.abs()));
         part += 1.0;
     }
-    Piece { impulse: whole, square, largest }
+    (whole, square)
+}
+
+/// The number of parts of half a radian of the fastest exact motion, so of one radian of the
+/// squared force, between two times in a step (s); `None` for a step on a grid.
+fn parts(step: &Step<'_>, [from, to]: [f64; 2]) -> Option<f64> {
+    let rate = match step.path {
+        Path::Exact(arc) => arc.fastest_motion(),
+        Path::Series(series) => series.rate(),
+        Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => return None,
+    };
+    Some(((to - from) * rate * 2.0).ceil().clamp(1.0, 1e6))
+}
+
+/// The largest |force| of wall number `wall` between two times in a step (s), N, without the jump at
+/// its end. That of exact motion is the largest at instants half a radian apart, and at the crest of
+/// the parabola through any three of them of which the middle one is the largest.
+pub(super) fn largest_force(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> f64 {
+    let Some(parts) = parts(step, [from, to]) else { return even_force(step, wall).abs() };
+    let span = (to - from) / parts;
+    let force = |part: f64| step.path.contact_force(wall, (from + span * part).min(to)).abs();
+    let mut last = [force(0.0), force(0.5)];
+    let (mut largest, mut part) = (last[0].max(last[1]), 1.0);
+    while part <= parts {
+        let next = force(part);
+        largest = largest.max(next);
+        let [before, middle] = last;
+        let curve = before - 2.0 * middle + next;
+        if middle >= before && middle >= next && curve < 0.0 {
+            let crest = part - 0.5 + 0.25 * (before - next) / curve;
+            largest = largest.max(force(crest));
+        }
+        (last, part) = ([middle, next], part + 0.5);
+    }
+    largest
 }

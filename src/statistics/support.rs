@@ -214,7 +214,7 @@ pub(super) fn of_supports(scene: &Scene, by_wall: &[Vec<&Contact>], window: &Win
         let reaching = all.clone().filter(|c| c.end.is_none_or(|end| end >= from));
         SupportStatistics {
             support: support.name.clone(),
-            force_largest: LargestForce::of_contacts(reaching.clone().copied(), from + window.length)
+            force_largest: LargestForce::of_contacts(reaching.clone().copied(), [from, from + window.length])
                 .filter(|_| is_elastic),
             contacts: all.filter(|c| c.start >= from).count(),
             episode_peak_force_n: match reaching.map(|c| c.peak_force).collect::<Option<Vec<f64>>>() {

@@ -12,12 +12,12 @@ pub(crate) fn unsettled(scene: &Scene, statistics: &Statistics) -> Option<String
     let lasts = |kind: &LoadKind| !matches!(kind, LoadKind::Constant { .. } | LoadKind::Impulse { .. });
     let window = statistics.from_s..statistics.to_s;
     let passes = |kind: &LoadKind| match kind {
-        LoadKind::Impulse { time, .. } => window.contains(time),
-        LoadKind::Table(table) => [table.time().first(), table.time().last()]
-            .into_iter()
-            .flatten()
-            .any(|edge| *edge > window.start && *edge < window.end * (1.0 - 1e-9)),
-        LoadKind::Constant { .. } | LoadKind::Harmonic { .. } | LoadKind::Function(_) => false,
+        LoadKind::Impulse { impulse, time } => *impulse != 0.0 && *time > window.start && window.contains(time),
+        LoadKind::Table(table) if table.force().iter().any(|force| *force != 0.0) => {
+            let edges = [table.time().first(), table.time().last()].into_iter().flatten();
+            edges.into_iter().any(|edge| *edge > window.start && *edge < window.end * (1.0 - 1e-9))
+        }
+        _ => false,
     };
     let kinds = || scene.loads.iter().map(|load| &load.kind);
     if !kinds().any(lasts) || kinds().any(passes) {
