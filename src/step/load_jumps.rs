@@ -15,6 +15,9 @@ use super::Balance;
 use crate::order::sort_by_number;
 use crate::scene::{LoadKind, Row, Scene};
 
+/// The number of steps up to which each is a double, 2^53.
+const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
+
 /// The jumps of the loads of a scene.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadJumps {
@@ -58,6 +61,10 @@ impl LoadJumps {
         let Some(&(time, ..)) = self.all.get(self.all.partition_point(|jump| jump.0 <= start)) else {
             return u64::MAX;
         };
+        // No run has so many steps, and beyond them not every number is one of doubles.
+        if time / self.step >= MOST_STEPS {
+            return u64::MAX;
+        }
         // The quotient may be off by rounding: a step's ends are products k·h.
         let mut due = ((time / self.step) as u64).saturating_sub(1).max(index);
         while (due + 1) as f64 * self.step < time {

@@ -53,11 +53,12 @@ fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
     let acts = |force: Option<&f64>| force.is_some_and(|force| *force != 0.0);
     if last < end * (1.0 - 1e-9) && acts(table.force().last()) {
         return Some(format!(
-            "the table of load {number} ends at {last} s, before the run does at {end} s: from then on it is 0"
+            "the table of load {number} ends at {} s, before the run does at {end} s: from then on it is 0",
+            amount(last, 6)
         ));
     }
     let starts = first > 0.0 && acts(table.force().first());
-    starts.then(|| format!("the table of load {number} begins at {first} s: before, it is 0"))
+    starts.then(|| format!("the table of load {number} begins at {} s: before, it is 0", amount(first, 6)))
 }
 
 /// A note on a load that moves nothing: a blow after the end of the run, or a place without a
@@ -187,7 +188,7 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, (scheme, step): (&Sch
             let divided = if *scheme == Scheme::Located { table.steep_rows(step) } else { Vec::new() };
             let (missed, rows, at) = missed(table, (step, &divided), scene.duration)?;
             let passes = match rows > 1.0 {
-                true => format!("skips rows of the table of load {number}, {rows:.0} rows a step"),
+                true => format!("skips rows of the table of load {number}, {} rows a step", amount(rows.round(), 6)),
                 false => format!("passes over a change of the table of load {number} at {at} s"),
             };
             Some(format!(
