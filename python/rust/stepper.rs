@@ -265,7 +265,9 @@ impl Stepper {
     }
 
     /// Force of each wall in the last step, N; shape (walls,): impulse over the length of the step,
-    /// which an impact makes as large as the step is short; of ``event`` the force at its end.
+    /// which an impact makes as large as the step is short; of ``event`` the force at its end, of
+    /// ``located`` that over the part of a step, without an impact at its end, whose impulse is in
+    /// `impulse` alone.
     #[getter]
     fn force<'py>(&mut self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_slice(py, &self.inner().force)

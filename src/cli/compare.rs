@@ -23,7 +23,7 @@ use crate::output::summary;
 use crate::run::{Options, run};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
-use crate::study::compare::{Comparison, any_succeeded, compare, default_methods};
+use crate::study::compare::{Comparison, any_succeeded, compare, default_methods, other_restitution};
 use crate::study::verdict::{self, Verdict};
 use serde_json::{Value, json};
 
@@ -138,6 +138,7 @@ fn add_messages(
     answer.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
     if !args.verbose {
         answer.messages(case.instability());
+        answer.messages(other_restitution(&case.scene, comparison));
         let count = findings.count() + notes.len();
         let more = (count > 0).then(|| format!("--verbose shows all quantities and the notes, {count} of them"));
         answer.remarks(more);

@@ -49,9 +49,9 @@ fn parts(step: &Step<'_>, [from, to]: [f64; 2]) -> Option<f64> {
     Some(((to - from) * rate * 2.0).ceil().clamp(1.0, 1e6))
 }
 
-/// The largest |force| of wall number `wall` between two times in a step (s), N, without the jump at
-/// its end. That of exact motion is the largest at instants half a radian apart, and at the crest of
-/// the parabola through any three of them of which the middle one is the largest.
+/// The largest |force| of wall number `wall` between two times in a step (s), N, without the jump
+/// at its end. That of exact motion is the largest at instants half a radian apart, and at the
+/// crest of the parabola through any three of them of which the middle one is the largest.
 pub(super) fn largest_force(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> f64 {
     let Some(parts) = parts(step, [from, to]) else { return even_force(step, wall).abs() };
     let span = (to - from) / parts;

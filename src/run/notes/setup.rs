@@ -105,8 +105,9 @@ fn clamped(scene: &Scene) -> Option<String> {
     let (upper, lower) = rigid(Side::Upper)
         .find_map(|upper| rigid(Side::Lower).find(|lower| closed(upper, lower)).map(|lower| (upper, lower)))?;
     Some(format!(
-        "walls {:?} and {:?} leave no room between them: their restitution means nothing, the structure is held there, \
-         and how impulses divide between the two differs from scheme to scheme; only their sum is that of the motion",
+        "walls {:?} and {:?} leave no room between them: the structure is held there, and how impulses divide between \
+         the two differs from scheme to scheme. With a restitution of 0 at both their sum is that of the motion; with \
+         another it may be none, and grow as the step shrinks",
         lower.name, upper.name
     ))
 }

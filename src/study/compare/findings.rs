@@ -22,6 +22,25 @@ pub(super) fn of(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     findings
 }
 
+/// That penalty springs without loss are compared with walls that take energy.
+#[must_use]
+pub fn other_restitution(scene: &Scene, comparison: &Comparison) -> Option<String> {
+    let mut asked: Vec<f64> = Vec::new();
+    for e in scene.walls.iter().filter_map(|wall| wall.law.restitution()) {
+        if !asked.contains(&e) {
+            asked.push(e);
+        }
+    }
+    let lossless = comparison.rows.iter().any(|row| row.method.scheme.is_lossless());
+    (lossless && asked.iter().any(|&e| e != 1.0)).then(|| {
+        let e = asked.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+        format!(
+            "the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not converge to one \
+             another"
+        )
+    })
+}
+
 /// Where the methods realise another restitution than the walls ask for.
 fn law_findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let mut findings = Vec::new();
@@ -29,25 +48,15 @@ fn law_findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let realised = |restitution| {
         comparison.rows.iter().map(|row| row.method.scheme).find(|s| s.entry().restitution == restitution)
     };
-    if comparison.rows.iter().any(|row| row.method.scheme.is_lossless()) {
-        findings.push(if asked.iter().all(|&e| e == 1.0) {
-            "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one \
-             motion, the penalty as ε → 0 and h²k_w/m → 0 both"
-                .into()
-        } else {
-            let mut distinct: Vec<f64> = Vec::new();
-            for e in &asked {
-                if !distinct.contains(e) {
-                    distinct.push(*e);
-                }
-            }
-            let e = distinct.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-            format!(
-                "the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not \
-                     converge to one another"
-            )
-        });
+    let lossless = comparison.rows.iter().any(|row| row.method.scheme.is_lossless());
+    if lossless && asked.iter().all(|&e| e == 1.0) {
+        findings.push(
+            "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one motion, \
+             the penalty as ε → 0 and h²k_w/m → 0 both"
+                .to_owned(),
+        );
     }
+    findings.extend(other_restitution(scene, comparison));
     if let Some(scheme) = realised(Realised::Zero).filter(|_| asked.iter().any(|&e| e > 0.0)) {
         findings.push(format!("{scheme} on positions tends to e = 0: it does not converge to walls that rebound"));
     }

@@ -7,6 +7,7 @@ mod findings;
 mod method_studies;
 
 pub use comparison::{AGREEMENT, Comparison, Restitution, Row, is_aperiodic};
+pub use findings::other_restitution;
 pub use method_studies::{MethodFailure, MethodStudies, MethodStudy};
 
 use super::choice::stepping_for_error;
