@@ -79,7 +79,6 @@ impl Growth {
         let (mut product, gap) = (Product::new(scene)?, scene.gap());
         let (mut time, mut products, mut speed) = (vec![0.0], vec![product.matrix().clone()], 0.0_f64);
         let (start, mut way) = (scene.initial.q.first().copied().unwrap_or(0.0), 0.0_f64);
-        let mut touches = false;
         while stepper.time() < scene.duration {
             let step = stepper.step()?;
             // A change that an impact makes grow has not grown before it.
@@ -92,7 +91,6 @@ impl Growth {
                 let within = |part: i32| arc.state(step.start + f64::from(part) / 4.0 * (step.end - step.start)).0;
                 way = (1..=4).map(within).fold(way, |most, q| most.max((q - start).abs()));
             }
-            touches |= step.jump.iter().chain(step.impulse).any(|&p| p != 0.0);
             // Without a derivative the change may be anything from here on.
             let known = product.observe(&step).is_ok();
             speed = speed.max(step.v.first().copied().unwrap_or(0.0).abs());
@@ -110,13 +108,12 @@ impl Growth {
         // Without a gap, as of a body that starts on a wall, the way that it goes is the length.
         let length = if way > 0.0 { way } else { scene.gap_scale() };
         let speed = if speed > 0.0 { speed } else { 1.0 };
-        // Between far walls, and without a contact, the free vibration relates speeds to
-        // displacements, not the gap: by the gap such a vibration would grow.
+        // Between far walls the free vibration relates speeds to displacements, not the gap: by the
+        // gap a vibration without contact would grow.
         let [natural, _] = scene.system.frequencies();
         // Without a gap the vibration on an elastic wall does.
         let pressed = if gap.is_some() { natural } else { natural.hypot(stiffest(scene).sqrt()) };
-        let by_gap = if touches || natural == 0.0 { speed / length } else { 0.0 };
-        let rate = by_gap.max(pressed);
+        let rate = (speed / length).max(pressed);
         Ok(Self { time, factor: products.iter().map(|m| norm(m, rate)).collect(), source: Source::Saltation })
     }
 

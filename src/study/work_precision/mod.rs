@@ -106,6 +106,12 @@ pub struct MethodPoints {
     pub points: Vec<Point>,
 }
 
+/// Errors above this tell no order.
+const COARSE: f64 = 0.1;
+
+/// Errors below this may be rounding, which grows with the number of steps.
+const ROUNDING: f64 = 1e-11;
+
 impl MethodPoints {
     /// The points that ran: step (s; `None` for the exact scheme) and measurements.
     pub fn measured(&self) -> impl Iterator<Item = (Option<f64>, &Measured)> {
@@ -113,13 +119,16 @@ impl MethodPoints {
     }
 
     /// Order of convergence of the displacement error (of a penalty, against its own springs). It
-    /// uses errors below a tenth and far enough above `known`, the uncertainty of the reference;
-    /// `None` from fewer than two of these.
+    /// uses errors from the step on from which all are below a tenth, and of these the ones far
+    /// enough above `known`, the uncertainty of the reference, and above rounding; `None` from fewer
+    /// than two of these.
     #[must_use]
     pub fn order(&self, known: f64) -> Option<f64> {
         let error = |m: &Measured| m.own.as_ref().unwrap_or(&m.errors).displacement;
-        let points = self.measured().filter_map(|(h, m)| Some((h?, error(m))));
-        order(points.filter(|p| p.1 < 0.1 && p.1 > 10.0 * known))
+        let points: Vec<(f64, f64)> = self.measured().filter_map(|(h, m)| Some((h?, error(m)))).collect();
+        let errors: Vec<f64> = points.iter().map(|point| point.1).collect();
+        let first = reached(&errors, COARSE)?;
+        order(points.into_iter().skip(first).filter(|point| point.1 > ROUNDING.max(10.0 * known)))
     }
 
     /// The cheapest point from which on the error of `quantity` stays at or below `tolerance`.
