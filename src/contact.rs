@@ -41,6 +41,19 @@ pub(crate) struct Rates {
     pub after: f64,
 }
 
+/// Velocities of a part of a step at the row of a wall, m/s.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PartRates {
+    /// At its start.
+    pub before: f64,
+    /// At its end, before the blows there.
+    pub arrived: f64,
+    /// After these blows.
+    pub struck: f64,
+    /// After the impacts at its end.
+    pub after: f64,
+}
+
 /// Joins the impulses of a scheme on a grid into episodes, and closes an episode when a wall stops
 /// pushing. A round wall counts as an upper one along the normal of each step, with positive
 /// impulses.
@@ -206,15 +219,14 @@ impl Episodes {
     }
 
     /// Adds a part of a step of `length` seconds, at whose end the impulses `jump` (N s) act; the
-    /// rest of `impulse` acts over it. The velocities ẇ (m/s) are those at its start, at its end
-    /// after its blows, and after the jump.
+    /// rest of `impulse` acts over it.
     pub(crate) fn observe_part(
         &mut self,
         [start, end]: [f64; 2],
         length: f64,
         (impulse, jump): (&[f64], &[f64]),
         pushing: &[usize],
-        rates: impl Fn(usize) -> Rates,
+        rates: impl Fn(usize) -> PartRates,
     ) {
         self.closed.clear();
         let over = |wall: usize| impulse[wall] - jump[wall];
@@ -242,7 +254,8 @@ impl Episodes {
                 (episode.last, episode.impulse) = (end, episode.impulse + over(wall).abs());
                 let force = over(wall).abs() / length;
                 episode.forces = [episode.forces[1], Some((0.5 * (start + end), force))];
-                episode.acceleration = (rates.struck - rates.before) / length;
+                episode.acceleration = (rates.arrived - rates.before) / length;
+                episode.blown = rates.struck != rates.arrived;
                 episode.short = (episode.short.0 + over(wall).abs(), episode.short.1 + length);
                 // Along a circle a short part reflects what a long one has left across it.
                 if !round || episode.short.1 >= SHORT * longest {
@@ -281,16 +294,16 @@ impl Episodes {
     /// Closes the episode of a wall that does not push in the part from `start` to `end` (s) with
     /// these velocities. Where the last one did not end with an impact, its force vanished between
     /// the middle of that part and of this one: where the straight line through its last two means
-    /// does. The velocity is linear over a part.
-    fn release(&mut self, wall: usize, [start, end]: [f64; 2], rates: Rates) {
+    /// does, or at a blow between the two parts. The velocity is linear over a part.
+    fn release(&mut self, wall: usize, [start, end]: [f64; 2], rates: PartRates) {
         let sign = self.side[wall].sign();
         if let Some(episode) = self.open[wall].as_mut().filter(|_| start > self.last_impact)
             && let [Some((before, more)), Some((middle, force))] = episode.forces
             && more > force
         {
             let vanishes = middle + force * (middle - before) / (more - force);
-            episode.last = vanishes.clamp(middle, 0.5 * (start + end));
-            let now = (rates.struck - rates.before) / (end - start);
+            episode.last = vanishes.clamp(middle, if episode.blown { start } else { 0.5 * (start + end) });
+            let now = (rates.arrived - rates.before) / (end - start);
             let acceleration = if episode.last < start { episode.acceleration } else { now };
             let left = rates.before + acceleration * (episode.last - start);
             episode.departure = (sign * left).max(0.0);

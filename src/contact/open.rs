@@ -15,8 +15,9 @@ pub(super) struct OpenEpisode {
     pub peak: Option<f64>,
     /// The middle (s) of the last two parts in which the wall pushed, and its mean force there, N.
     pub forces: [Option<(f64, f64)>; 2],
-    /// ẅ over the last of them, m/s².
+    /// ẅ over the last of them, m/s², and whether a blow acted at its end.
     pub acceleration: f64,
+    pub blown: bool,
     /// Impulse and length of parts too short for a mean force of their own, N s and s.
     pub short: (f64, f64),
     pub approach: f64,

@@ -70,7 +70,7 @@ fn the_first_two_steps_of_a_lasting_contact_are_no_force() {
 fn a_part_too_short_to_push_ends_no_contact_and_a_longer_one_does() {
     let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 1.0));
     let h = 0.125;
-    let held = Rates { before: 0.0, struck: 0.0, after: 0.0 };
+    let held = PartRates { before: 0.0, arrived: 0.0, struck: 0.0, after: 0.0 };
     // Where sticking ends and sliding begins, a part of a step may take no more than rounding.
     for (pause, contacts) in [(1e-9 * h, 1), (0.1 * h, 2)] {
         let divided = Contract { divides: true, ..contract(None) };

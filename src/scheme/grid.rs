@@ -6,7 +6,7 @@ use super::frame::{Frame, Stretch};
 use super::motion::Motion;
 use super::rule::Rule;
 use super::space::Space;
-use crate::contact::{Episodes, Rates};
+use crate::contact::{Episodes, PartRates, Rates};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
@@ -43,8 +43,9 @@ impl<S: Space> Grid<S> {
         if self.divides {
             let rates = |wall: usize| {
                 let met = if frame.blown { &frame.struck } else { &frame.after };
-                let [before, struck, after] = [&frame.before, met, &frame.v].map(|v| S::dot(rows, wall, v));
-                Rates { before, struck, after }
+                let all = [&frame.before, &frame.after, met, &frame.v].map(|v| S::dot(rows, wall, v));
+                let [before, arrived, struck, after] = all;
+                PartRates { before, arrived, struck, after }
             };
             let length = match frame.stretch {
                 Stretch::Part(length) | Stretch::Other(length, _) => length,

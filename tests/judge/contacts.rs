@@ -553,3 +553,22 @@ fn the_largest_force_of_a_contact_that_began_before_the_window_is_that_within_it
         }
     }
 }
+
+/// A blow pulls the body off a damped spring that still pushes: the contact ends at the blow.
+#[test]
+fn a_blow_ends_a_contact_of_located_at_its_instant() {
+    let scene = Scene::oscillator(1.0, 0.5, 100.0)
+        .with_wall(Wall::upper("stop", 0.0).with_elasticity(1e4, 20.0))
+        .with_load(Load::impulse(-1.5, 0.0371))
+        .with_initial(&[-0.0101], &[1.0])
+        .with_duration(0.06);
+    let exact = contacts(&scene, &Scheme::Event, 1e-3);
+    let departed = exact[0].departure_speed.unwrap();
+    for h in [1e-3, 2.5e-4, 3.1e-5] {
+        let found = contacts(&scene, &Scheme::Located, h);
+        assert_eq!((found.len(), found[0].end, exact[0].end), (1, Some(0.0371), Some(0.0371)));
+        // Of order 2: 6e-5 m/s at the first step.
+        let off = (found[0].departure_speed.unwrap() - departed).abs();
+        assert!(off < 100.0 * h * h, "{h}: {off:e}");
+    }
+}

@@ -9,7 +9,7 @@ use super::contacts::Contacts;
 use super::division::Division;
 use super::part::THETA;
 use super::plane_contacts::PlaneContacts;
-use crate::contact::{Episodes, Rates};
+use crate::contact::{Episodes, PartRates};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene};
@@ -76,7 +76,7 @@ impl LocatedPlanar {
             let along = |v: &Vec<f64>| sign * division.contacts.rate_along(wall, frame.normal[wall], v);
             let before = sign * division.contacts.rate_at_start(wall, frame.normal[wall], &frame.before, length);
             let struck = along(if frame.blown { &frame.struck } else { &frame.after });
-            Rates { before, struck, after: along(&frame.v) }
+            PartRates { before, arrived: along(&frame.after), struck, after: along(&frame.v) }
         };
         let impulses = (&frame.impulse[..], &frame.jump[..]);
         episodes.observe_part([frame.start, frame.end], length, impulses, &frame.pushing, rates);
