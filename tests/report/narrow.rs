@@ -25,7 +25,7 @@ fn the_stable_steps_are_cards_on_a_phone() {
         td.clientWidth))";
     assert!(tab.evaluate(narrowest).as_f64().unwrap() > 300.0, "{}", tab.evaluate(narrowest));
     let name = "getComputedStyle(document.querySelector('#steps td:nth-child(4)'), '::before').content";
-    assert_eq!(tab.evaluate(name), json!("\"one free impact \""));
+    assert_eq!(tab.evaluate(name), json!("\"impact on a rigid wall \""));
     tab.close();
 }
 

@@ -119,7 +119,7 @@ const WRONG: &[Wrong] = &[
     ("a letter for a delimiter", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", delimiter = \"x\" }", "19:40", &["load 1: table: delimiter", "\";\""]),
     ("a semicolon for a point", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", decimal = \";\" }", "19:38", &["load 1: table: decimal", "\",\""]),
     ("decimal commas between commas", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", decimal = \",\" }", "19:38", &["load 1: table: decimal", "delimiter = \";\" beside it"]),
-    ("times of no length", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", time_scale = 0 }", "19:36", &["load 1: table: time_scale", "above 0"]),
+    ("times of no length", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", time_scale = 0 }", "19:41", &["load 1: table: time_scale", "above 0"]),
     ("a scale that is no number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", scale = nan }", "19:36", &["load 1: table: scale", "a finite number"]),
     ("a column by number", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", force = 2 }", "19:36", &["load.table.force", "header of the column of forces"]),
     ("an unknown key of a table", "harmonic = { amplitude = 3.0, frequency = 5.0, phase = 0.0 }", "table = { file = \"no.csv\", column = 2 }", "19:28", &["unknown key `column`", "delimiter"]),
