@@ -120,8 +120,8 @@ impl MethodPoints {
 
     /// Order of convergence of the displacement error (of a penalty, against its own springs). It
     /// uses errors from the step on from which all are below a tenth, and of these the ones far
-    /// enough above `known`, the uncertainty of the reference, and above rounding; `None` from fewer
-    /// than two of these.
+    /// enough above `known`, the uncertainty of the reference, and above rounding; `None` from
+    /// fewer than two of these.
     #[must_use]
     pub fn order(&self, known: f64) -> Option<f64> {
         let error = |m: &Measured| m.own.as_ref().unwrap_or(&m.errors).displacement;
