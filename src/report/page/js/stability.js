@@ -57,7 +57,10 @@ function stableSteps() {
     el(
       "p",
       { class: "lead" },
-      `With the walls and springs of the case; ${criterion}. One free impact: the restitution that the scheme realises, over all phases of a step; of a penalty at h²k/m = 1.`,
+      `With the walls and springs of the case; ${criterion}.` +
+        (rigid
+          ? " Impact on a rigid wall: the restitution that the scheme realises in one free impact, over all phases of a step; of a penalty at h²k/m = 1."
+          : ""),
     ),
   );
 }
