@@ -6,10 +6,11 @@
 //! The exact motion between events: `arc.rs`, `arc_bounds.rs`, `touch.rs`, `contact.rs`,
 //! `response.rs`, `force.rs`, `divided.rs`, `roots.rs` in closed form for one degree of freedom,
 //! `series/` by Taylor series for structures (along a circle in round holes); `propagator.rs`
-//! carries a small change of a structure's state along.
+//! carries a small change of a structure's state along, `bisect.rs` finds a root between two times.
 
 mod arc;
 mod arc_bounds;
+mod bisect;
 mod contact;
 mod divided;
 mod force;
@@ -21,6 +22,7 @@ mod touch;
 
 pub use arc::Arc;
 pub(crate) use arc::Start;
+pub(crate) use bisect::bisect;
 pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;

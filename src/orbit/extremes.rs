@@ -1,7 +1,7 @@
 //! The extremes of the displacement, or of the force of a wall, inside a flight: roots of the rate,
 //! not samples.
 
-use crate::flow::{Arc, Jet};
+use crate::flow::{Arc, Jet, bisect};
 
 /// Length of a search window, in units of the shortest period of motion and load over 2π.
 const WINDOW: f64 = 0.25;
@@ -11,9 +11,6 @@ const MOST_WINDOWS: f64 = 1e5;
 
 /// Where the search begins after a start with velocity 0, in windows.
 const SOON: f64 = 1e-2;
-
-/// Halvings and secant steps that locate a root.
-const STEPS: usize = 80;
 
 /// Calls `observe` with the time since the start (s), the state there with its derivatives, and the
 /// second rate of each extreme of w₀ q + w₁ q̇ strictly inside the `span` (s) of `arc`, in order; w
@@ -56,35 +53,4 @@ pub(super) fn extremes(arc: &Arc, span: f64, weights: [f64; 2], mut observe: imp
         }
         before = after;
     }
-}
-
-/// A root of `f` between `from` and `to`, where its signs differ, to the last digits: by secants
-/// where they stay inside and converge, else by halving (the Illinois method).
-pub(super) fn bisect(mut f: impl FnMut(f64) -> f64, from: f64, to: f64) -> f64 {
-    let (mut a, mut b) = (from, to);
-    let (mut fa, mut fb) = (f(a), f(b));
-    for _ in 0..STEPS {
-        let mut c = b - fb * (b - a) / (fb - fa);
-        let inside = c.is_finite() && (c - a) * (c - b) < 0.0;
-        if !inside {
-            c = 0.5 * (a + b);
-        }
-        if c == a || c == b {
-            break;
-        }
-        let fc = f(c);
-        if fc == 0.0 {
-            return c;
-        }
-        if fc * fb < 0.0 {
-            (a, fa) = (b, fb);
-        } else {
-            fa *= 0.5;
-        }
-        (b, fb) = (c, fc);
-        if (b - a).abs() <= 2.0 * f64::EPSILON * b.abs() {
-            break;
-        }
-    }
-    b
 }

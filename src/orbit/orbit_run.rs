@@ -1,13 +1,12 @@
 //! Runs of a structure over an orbit or a part of it: their end, its derivative with respect to the
 //! start, and the events on the way.
 
-use super::extremes::bisect;
 use super::periodic::Orbit;
 use super::signature::{Event, Kind};
 use super::strobe::{state, vector};
 use super::watch::{Passage, Watch, gathered, orbit_of};
 use crate::error::{Error, Result};
-use crate::flow::Series;
+use crate::flow::{Series, bisect};
 use crate::scene::{Scene, Wall};
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Path, Step};

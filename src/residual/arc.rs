@@ -1,6 +1,6 @@
 //! Checks of the exact motion of one degree of freedom.
 
-use super::deepest::deepest;
+use super::deepest::{behind, deepest};
 use super::energy::{Along, Instants, stored};
 use super::quadrature::{nodes, panels};
 use super::row_walls::RowWalls;
@@ -32,7 +32,7 @@ impl Judge {
                 let wall = &self.scene.walls[index];
                 let motion = |t: f64| {
                     let (q, v) = arc.state(t);
-                    [-wall.gap(wall.row().dot(&[q])), -wall.side().sign() * wall.row().dot(&[v])]
+                    behind(wall, &[q], &[v])
                 };
                 self.walls.observe_depth(index, deepest([step.start, step.end], fastest.max(rate), motion));
             }

@@ -1,14 +1,16 @@
 //! How deep exact motion goes into an elastic wall.
 //!
 //! It is deepest where its speed into the wall becomes one out of it: between two instants, which
-//! are less than a radian of the fastest motion apart, such a turn is found by the rule of Illinois
-//! on the speed. The depth changes with the square of the error of the turn's time.
+//! are less than a radian of the fastest motion apart, such a turn is a root of the speed.
 
-/// The error of the time of a turn, as a share of the time searched: its square is rounding.
-const TIME: f64 = 1e-8;
+use crate::flow::bisect;
+use crate::scene::Wall;
 
-/// Most steps of a search, which takes four to six.
-const MOST_STEPS: usize = 20;
+/// How far a body in the state `q` (m), `v` (m/s) is behind the face of a flat `wall`, m, and its
+/// speed into it, m/s.
+pub(super) fn behind(wall: &Wall, q: &[f64], v: &[f64]) -> [f64; 2] {
+    [-wall.gap(wall.row().dot(q)), -wall.side().sign() * wall.row().dot(v)]
+}
 
 /// The largest depth (m) between two times (s) on a `motion` that gives the depth and the speed
 /// into the wall (m/s) at a time, and has no rate above `fastest` (rad/s).
@@ -22,29 +24,10 @@ pub(super) fn deepest([from, to]: [f64; 2], fastest: f64, mut motion: impl FnMut
         let [depth, speed] = motion(t);
         deepest = deepest.max(depth);
         if last[1] > 0.0 && speed < 0.0 {
-            deepest = deepest.max(depth_at_turn([last, [t, speed]], &mut motion));
+            let turn = bisect(|t| motion(t)[1], last[0], t);
+            deepest = deepest.max(motion(turn)[0]);
         }
         (last, part) = ([t, speed], part + 1.0);
-    }
-    deepest
-}
-
-/// The depth (m) at a turn between two instants (s) with speeds of both signs (m/s).
-fn depth_at_turn([mut a, mut b]: [[f64; 2]; 2], mut motion: impl FnMut(f64) -> [f64; 2]) -> f64 {
-    let (mut deepest, width) = (0.0, b[0] - a[0]);
-    for _ in 0..MOST_STEPS {
-        let t = a[0] + (b[0] - a[0]) * (a[1] / (a[1] - b[1]));
-        let [depth, speed] = motion(t);
-        deepest = f64::max(deepest, depth);
-        if (t - b[0]).abs() <= TIME * width || speed == 0.0 {
-            break;
-        }
-        if speed * b[1] < 0.0 {
-            a = b;
-        } else {
-            a[1] *= 0.5;
-        }
-        b = [t, speed];
     }
     deepest
 }

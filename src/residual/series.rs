@@ -4,7 +4,7 @@
 //! integrates powers, which have twice that rate, to 1e-20 of their size. If the fastest rate were
 //! underestimated, the energy ledger would not close.
 
-use super::deepest::deepest;
+use super::deepest::{behind, deepest};
 use super::energy::{Ledger, Moved};
 use super::quadrature::{Panel, nodes};
 use super::{Judge, PLACE_UNITS};
@@ -112,7 +112,7 @@ impl Judge {
             }
             let motion = |t: f64| {
                 series.state(t, q, v);
-                [-wall.gap(wall.row().dot(q)), -wall.side().sign() * wall.row().dot(v)]
+                behind(wall, q, v)
             };
             self.walls.observe_depth(index, deepest(span, series.rate(), motion));
         }
