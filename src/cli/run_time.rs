@@ -107,3 +107,22 @@ pub fn time_in_words(seconds: f64) -> String {
         s => format!("{:.0e} years", s / YEAR),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::time_in_words;
+
+    #[test]
+    fn times_are_told_in_words() {
+        for (seconds, text) in [
+            (0.25, "250 ms"),
+            (3.21, "3.2 s"),
+            (300.0, "5 min"),
+            (36_000.0, "10.0 h"),
+            (1e15, "3e7 years"),
+            (f64::INFINITY, "an unknown time"),
+        ] {
+            assert_eq!(time_in_words(seconds), text);
+        }
+    }
+}

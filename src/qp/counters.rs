@@ -20,3 +20,17 @@ pub struct SolverCounters {
     /// method took over from pivoting, whether or not it settled.
     pub crowded: u64,
 }
+
+impl SolverCounters {
+    /// Adds what another solver has done.
+    pub(crate) fn add(&mut self, other: Self) {
+        let Self { solves, free, iterations, pivots, fallbacks, eliminated, crowded } = other;
+        self.solves += solves;
+        self.free += free;
+        self.iterations += iterations;
+        self.pivots += pivots;
+        self.fallbacks += fallbacks;
+        self.eliminated += eliminated;
+        self.crowded += crowded;
+    }
+}

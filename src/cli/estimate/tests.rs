@@ -2,20 +2,6 @@ use super::*;
 use crate::scene::{Load, Row, Slider, Wall};
 
 #[test]
-fn times_are_told_in_words() {
-    for (seconds, text) in [
-        (0.25, "250 ms"),
-        (3.21, "3.2 s"),
-        (300.0, "5 min"),
-        (36_000.0, "10.0 h"),
-        (1e15, "3e7 years"),
-        (f64::INFINITY, "an unknown time"),
-    ] {
-        assert_eq!(time_in_words(seconds), text);
-    }
-}
-
-#[test]
 fn the_rest_is_extrapolated_from_what_is_done() {
     let estimate = DurationEstimate::new("reasons".to_owned(), Vec::new());
     let second = Duration::from_secs(1);

@@ -5,7 +5,7 @@ use super::super::body::Body;
 use super::super::space::{Solve, Space, zero};
 use crate::error::Result;
 use crate::linear::Rows;
-use crate::qp::{Backend, Failure, Problem};
+use crate::qp::{Backend, Failure, Problem, SolverCounters};
 use crate::scene::{Row, Scene};
 
 /// θ of the rule.
@@ -57,8 +57,9 @@ pub(super) struct Part<S: Space> {
     /// The change of the velocity, m/s.
     pub delta: S::Vector,
     pub pushes: Vec<Push>,
-    /// The programmes solved, and their work.
-    work: Counters,
+    /// Programmes solved, of one bound by hand and of several by solvers, and the work of these.
+    solves: u64,
+    work: SolverCounters,
 }
 
 impl<S: Space> Part<S> {
@@ -77,16 +78,15 @@ impl<S: Space> Part<S> {
             column: vector(),
             delta: vector(),
             pushes: Vec::with_capacity(scene.walls.len()),
-            work: Counters::default(),
+            solves: 0,
+            work: SolverCounters::default(),
         })
     }
 
     /// Adds what the parts have cost.
     pub fn count(&self, counters: &mut Counters) {
-        counters.qp_solves += self.work.qp_solves;
-        counters.interior_point_iterations += self.work.interior_point_iterations;
-        counters.pivots += self.work.pivots;
-        counters.qp_fallbacks += self.work.qp_fallbacks;
+        counters.qp_solves += self.solves;
+        counters.add_work(&self.work);
     }
 
     /// Rounding error of the velocity of a wall's row, m/s.
@@ -139,7 +139,7 @@ impl<S: Space> Part<S> {
         if if hold.upper { beyond <= 0.0 } else { beyond >= 0.0 } {
             return;
         }
-        self.work.qp_solves += 1;
+        self.solves += 1;
         self.column.as_mut().fill(0.0);
         S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.column);
         S::solve(&mut self.factor, &mut self.column);
@@ -153,7 +153,7 @@ impl<S: Space> Part<S> {
 
     /// Computes δ and the impulses from b as a programme.
     fn solve(&mut self, body: &Body<S>, st: f64, holds: &[VelocityBound]) -> Solution {
-        self.work.qp_solves += 1;
+        self.solves += 1;
         let rows = holds.iter().filter_map(|hold| self.rows.get(hold.wall)).map(Row::entries);
         let compliance = holds.iter().map(|hold| hold.compliance).collect();
         let problem = Problem { a: body.theta_matrix_over(st), g: Rows::new(body.n, rows), compliance };
@@ -164,7 +164,7 @@ impl<S: Space> Part<S> {
         let (lo, hi) = (bound(false, f64::NEG_INFINITY), bound(true, f64::INFINITY));
         let all: Vec<usize> = (0..holds.len()).collect();
         let solved = solver.solve(&self.b, (&lo, &hi), &all);
-        self.work.add_work(&solver.counters());
+        self.work.add(solver.counters());
         solved?;
         self.delta.clone_from(solver.x());
         let impulses = holds.iter().zip(solver.multiplier().unwrap_or_default());
